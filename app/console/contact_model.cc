@@ -94,7 +94,6 @@ QVariant ContactModel::data(const QModelIndex& index, int role) const {
   if (role == Qt::TextAlignmentRole) {
     return QVariant((index.column() == kPart ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
   }
-  if (role == Qt::ToolTipRole) return row.part;  // a narrow column cuts it off
   if (role == Qt::BackgroundRole) return ThemeColors().contact_tint;
   if (role == Qt::ForegroundRole && index.column() == kPart) return ThemeColors().contact;
   return {};

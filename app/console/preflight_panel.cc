@@ -76,7 +76,6 @@ PreflightPanel::PreflightPanel(TrialDesk& desk, QWidget* parent) : QWidget(paren
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);
-  table_->setStyleSheet("QTableWidget::item { padding: 3px; }");
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);

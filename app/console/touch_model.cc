@@ -51,7 +51,7 @@ void TouchModel::ShowFrame(const control::FrameResult& result,
     rows_[i].verdict = result.record.contacts[i].verdict;
     rows_[i].tally = tallies[i];
   }
-  if (!rows_.empty()) emit dataChanged(index(0, 0), index(rowCount() - 1, kColumns - 1));
+  if (!rows_.empty()) emit dataChanged(index(0, kState), index(rowCount() - 1, kColumns - 1));
 }
 
 int TouchModel::rowCount(const QModelIndex& parent) const {
@@ -80,7 +80,6 @@ QVariant TouchModel::CellText(const Row& row, int column) const {
 QVariant TouchModel::data(const QModelIndex& index, int role) const {
   const Row& row = rows_.at(static_cast<std::size_t>(index.row()));
   if (role == Qt::DisplayRole) return CellText(row, index.column());
-  if (role == Qt::ToolTipRole) return CellText(row, kPart);  // a narrow column cuts it off
   if (role == Qt::TextAlignmentRole) return QVariant(AlignmentOf(index.column()));
   if (role == Qt::ForegroundRole && index.column() == kState) return ColorOf(row.verdict);
   return {};

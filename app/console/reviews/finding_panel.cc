@@ -1,7 +1,6 @@
 #include "app/console/reviews/finding_panel.h"
 
 #include <QHBoxLayout>
-#include <QHeaderView>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -31,7 +30,7 @@ FindingPanel::FindingPanel(QWidget* parent)
   part_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   part_->setMinimumContentsLength(8);
   counts_->setForegroundRole(QPalette::PlaceholderText);
-  auto* list = new Listing(filter_, tr("No touch and no near miss"));
+  auto* list = new Listing(filter_, tr("No touch and no near miss"), FindingModel::kPart);
   list_ = list;
   list->setObjectName("finding_list");
   list->setAccessibleName(tr("Touches and near misses"));
@@ -39,8 +38,6 @@ FindingPanel::FindingPanel(QWidget* parent)
   list->setSelectionMode(QAbstractItemView::SingleSelection);
   list->setSelectionBehavior(QAbstractItemView::SelectRows);
   list->setTabKeyNavigation(false);
-  list->horizontalHeader()->setSectionResizeMode(FindingModel::kName, QHeaderView::ResizeToContents);
-  list->horizontalHeader()->setSectionResizeMode(FindingModel::kPart, QHeaderView::Stretch);
   auto* filters = new QHBoxLayout;
   filters->addWidget(status_);
   filters->addWidget(part_);

@@ -30,6 +30,7 @@
 #include "app/control/replay/replay.h"
 #include "cad_import/layout/layout_file.h"
 #include "sessions/session_reader.h"
+#include "tests/app/console/looks/fit_check.h"
 #include "tests/app/console/opened_urls.h"
 #include "tests/app/console/window_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -73,10 +74,14 @@ class WholeWay : private OwnPlaces, public WindowFixture {
     FAIL() << name << " is in no tool bar";
   }
   void Keep(const char* name, QWidget* widget = nullptr) {
+    SCOPED_TRACE(name);
+    QWidget& top = widget == nullptr ? window_ : *widget;
+    AwaitLayout();
+    for (const QString& line : FaultsOfFit(top)) ADD_FAILURE() << line.toStdString();
     const QString folder = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS");
     if (folder.isEmpty()) return;
     QTest::qWait(1500);  // until the picture is drawn in full
-    (widget == nullptr ? &window_ : widget)->grab().save(QString("%1/%2.png").arg(folder, name));
+    top.grab().save(QString("%1/%2.png").arg(folder, name));
   }
 
   void TakeParts();

@@ -1,10 +1,12 @@
 #include "tests/app/console/looks/fit_check.h"
 
 #include <QAbstractButton>
+#include <QAbstractItemDelegate>
 #include <QAbstractItemView>
 #include <QAbstractScrollArea>
 #include <QAbstractSpinBox>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDockWidget>
 #include <QGroupBox>
 #include <QHeaderView>
@@ -136,14 +138,16 @@ void CheckCells(const QAbstractItemView& view, Faults* faults) {
     const QRect cell = view.visualRect(index);
     const QString text = index.data().toString();
     if (text.isEmpty() || !cell.isValid() || !view.viewport()->rect().intersects(cell)) return;
-    const QSize wanted = view.sizeHintForIndex(index);
-    if (wraps) {
-      if (wanted.height() > cell.height() + kRoundingPx)
-        faults->Add(
-            view, QString("'%1' is %2 px high and has %3").arg(text).arg(wanted.height()).arg(cell.height()));
-    } else {
-      faults->Need(view, text, wanted.width(), cell.width());
-    }
+    QStyleOptionViewItem option;
+    option.initFrom(&view);
+    option.widget = &view;
+    option.rect = wraps ? cell : QRect();
+    if (wraps) option.features = QStyleOptionViewItem::WrapText;
+    const QSize wanted = view.itemDelegateForIndex(index)->sizeHint(option, index);
+    faults->Need(view, text, wanted.width(), cell.width());
+    if (wraps && wanted.height() > cell.height() + kRoundingPx)
+      faults->Add(view,
+                  QString("'%1' is %2 px high and has %3").arg(text).arg(wanted.height()).arg(cell.height()));
   };
   const auto walk = [&](const auto& self, const QModelIndex& parent) -> void {
     for (int row = 0; row < model->rowCount(parent); ++row) {
@@ -249,6 +253,11 @@ void CheckOverlaps(const QWidget& parent, const QWidget& top, Faults* faults) {
 }
 
 }  // namespace
+
+void AwaitLayout() {
+  constexpr int kMostLayers = 8;
+  for (int i = 0; i < kMostLayers; ++i) QCoreApplication::processEvents();
+}
 
 QStringList FaultsOfFit(const QWidget& top) {
   Faults faults;

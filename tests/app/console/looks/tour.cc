@@ -62,9 +62,7 @@ void Tour::Know(const QStringList& names) {
 
 void Tour::Look(const char* name, QWidget& top) {
   SCOPED_TRACE(name);
-  // What was shown is laid out: a text that wraps gets its height after its width, from the inside out.
-  constexpr int kMostLayers = 8;
-  for (int i = 0; i < kMostLayers; ++i) QCoreApplication::processEvents();
+  AwaitLayout();
   if (GetParam() == Inspection::kWords) {
     for (const QString& line : UntranslatedTexts(top, known_, EnglishWidgets()))
       ADD_FAILURE() << "not translated: " << line.toStdString();
