@@ -1,6 +1,7 @@
 #include "app/console/view/dimension_painter.h"
 
 #include <QFontMetrics>
+#include <QLineF>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -37,7 +38,7 @@ QString TextOf(const control::Dimension& dimension) {
   return text;
 }
 
-// Upwards, or downwards from the upper edge, until it lies over none of the others.
+// Upwards, or downwards from the upper edge, until it lies over no mark and no other text.
 void MoveToFreePlace(QRectF* plate, const std::vector<QRectF>& taken) {
   constexpr int kMostSteps = 12;
   const double step =
@@ -65,26 +66,29 @@ void PaintText(QPainter& painter, const QPointF& at, const QString& text, const 
   painter.drawText(plate, Qt::AlignCenter, text);
 }
 
-void PaintOne(QPainter& painter, const QPointF& from, const QPointF& to, const control::Dimension& dimension,
-              std::vector<QRectF>* taken) {
-  const QColor color = ColorOf(dimension);
+void PaintLine(QPainter& painter, const QLineF& line, const QColor& color) {
   painter.setPen(QPen(QColor(20, 24, 29, 160), 4.0, Qt::SolidLine, Qt::RoundCap));  // seen on any picture
-  painter.drawLine(from, to);
+  painter.drawLine(line);
   painter.setPen(QPen(color, 2.0, Qt::SolidLine, Qt::RoundCap));
-  painter.drawLine(from, to);
+  painter.drawLine(line);
   painter.setPen(QPen(QColor(20, 24, 29), 1.0));
   painter.setBrush(color);
-  for (const QPointF& end : {from, to}) painter.drawEllipse(end, kMarkPx, kMarkPx);
-  PaintText(painter, 0.5 * (from + to), TextOf(dimension), color, taken);
+  for (const QPointF& end : {line.p1(), line.p2()}) painter.drawEllipse(end, kMarkPx, kMarkPx);
+}
+
+QRectF MarkAt(const QPointF& end) {
+  return QRectF(end - QPointF(kMarkPx, kMarkPx), end + QPointF(kMarkPx, kMarkPx));
 }
 
 }  // namespace
 
 void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoint& origin,
                      std::span<const control::Dimension> dimensions) {
-  painter.save();
-  painter.setRenderHint(QPainter::Antialiasing);
-  std::vector<QRectF> taken;  // by texts
+  struct Shown {
+    const control::Dimension& dimension;
+    QLineF line;
+  };
+  std::vector<Shown> shown;
   for (const control::Dimension& dimension : dimensions) {
     const std::optional<Eigen::Vector2d> from = view.Project(dimension.from_in_world),
                                          to = view.Project(dimension.to_in_world);
@@ -92,8 +96,18 @@ void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoi
     const auto in_widget = [&](const Eigen::Vector2d& pixel) {
       return QPointF(origin) + QPointF(pixel.x() + 0.5, pixel.y() + 0.5);
     };
-    PaintOne(painter, in_widget(*from), in_widget(*to), dimension, &taken);
+    shown.push_back({dimension, {in_widget(*from), in_widget(*to)}});
   }
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  std::vector<QRectF> taken;  // by marks and texts
+  for (const auto& [dimension, line] : shown) {
+    PaintLine(painter, line, ColorOf(dimension));
+    taken.push_back(MarkAt(line.p1()));
+    taken.push_back(MarkAt(line.p2()));
+  }
+  for (const auto& [dimension, line] : shown)
+    PaintText(painter, line.center(), TextOf(dimension), ColorOf(dimension), &taken);
   painter.restore();
 }
 

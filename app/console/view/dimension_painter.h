@@ -11,8 +11,8 @@
 namespace elbowroom::console {
 
 // `view`: of a picture in the painter's pixels, whose upper left corner is at `origin`. A line has a mark at
-// either end and its text beside its middle; what is behind the eye is left out. Nothing hides a line; texts
-// make room for one another.
+// either end and its text beside its middle; what is behind the eye is left out. Texts lie over lines; they
+// make room for marks and for one another.
 void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoint& origin,
                      std::span<const control::Dimension> dimensions);
 
