@@ -14,6 +14,7 @@ namespace {
 
 const QColor kMeasured(0, 90, 160);
 constexpr double kMarkPx = 4.0;
+constexpr double kBesideLinePx = 6.0;
 
 QColor ColorOf(const control::Dimension& dimension) {
   if (!dimension.band) return kMeasured;
@@ -38,27 +39,48 @@ QString TextOf(const control::Dimension& dimension) {
   return text;
 }
 
-// Upwards, or downwards from the upper edge, until it lies over no mark and no other text.
-void MoveToFreePlace(QRectF* plate, const std::vector<QRectF>& taken) {
-  constexpr int kMostSteps = 12;
-  const double step =
-      plate->top() > kMostSteps * plate->height() ? -plate->height() - 2 : plate->height() + 2;
-  for (int i = 0; i < kMostSteps; ++i) {
-    if (std::ranges::none_of(taken, [&](const QRectF& other) { return other.intersects(*plate); })) return;
-    plate->translate(0, step);
+// To the nearest place above or below in the room that is over no mark and no other text; where there is none
+// it stays.
+void MoveToFreePlace(QRectF* plate, const QRectF& room, const std::vector<QRectF>& taken) {
+  constexpr double kStepPx = 3.0;
+  const double farthest_px = 12.0 * plate->height();
+  for (double away_px = 0.0; away_px < farthest_px; away_px += kStepPx) {
+    for (const double down_px : {-away_px, away_px}) {
+      const QRectF place = plate->translated(0, down_px);
+      const bool is_free =
+          std::ranges::none_of(taken, [&](const QRectF& other) { return other.intersects(place); });
+      if (!is_free || !room.contains(place)) continue;
+      *plate = place;
+      return;
+    }
   }
 }
 
-void PaintText(QPainter& painter, const QPointF& at, const QString& text, const QColor& color,
-               std::vector<QRectF>* taken) {
+// Where the text of a line is written that has its middle at `at`.
+QRectF PlaceText(const QPainter& painter, const QPointF& at, const QString& text,
+                 std::vector<QRectF>* taken) {
   const QFontMetrics metrics = painter.fontMetrics();
   QRectF plate(0, 0, metrics.horizontalAdvance(text) + 10, metrics.height() + 4);
-  plate.moveCenter(at - QPointF(0, 0.5 * plate.height() + 6));
+  plate.moveCenter(at - QPointF(0, 0.5 * plate.height() + kBesideLinePx));
   const QRectF room = painter.viewport();
   plate.moveLeft(std::clamp(plate.left(), 2.0, std::max(2.0, room.width() - plate.width() - 2)));
   plate.moveTop(std::clamp(plate.top(), 2.0, std::max(2.0, room.height() - plate.height() - 2)));
-  MoveToFreePlace(&plate, *taken);
+  MoveToFreePlace(&plate, room, *taken);
   taken->push_back(plate);
+  return plate;
+}
+
+// From the middle of a line to its text, where that had to go farther away.
+void PaintLeader(QPainter& painter, const QPointF& at, const QRectF& plate, const QColor& color) {
+  const QPointF end(std::clamp(at.x(), plate.left(), plate.right()),
+                    std::clamp(at.y(), plate.top(), plate.bottom()));
+  const QLineF leader(at, end);
+  if (leader.length() <= 2.0 * kBesideLinePx) return;
+  painter.setPen(QPen(color, 1.0, Qt::DotLine));
+  painter.drawLine(leader);
+}
+
+void PaintText(QPainter& painter, const QRectF& plate, const QString& text, const QColor& color) {
   painter.setPen(QPen(color, 1.5));
   painter.setBrush(QColor(255, 255, 255, 225));
   painter.drawRoundedRect(plate, 3, 3);
@@ -85,8 +107,10 @@ QRectF MarkAt(const QPointF& end) {
 void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoint& origin,
                      std::span<const control::Dimension> dimensions) {
   struct Shown {
-    const control::Dimension& dimension;
     QLineF line;
+    QString text;
+    QColor color;
+    QRectF plate;
   };
   std::vector<Shown> shown;
   for (const control::Dimension& dimension : dimensions) {
@@ -96,18 +120,21 @@ void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoi
     const auto in_widget = [&](const Eigen::Vector2d& pixel) {
       return QPointF(origin) + QPointF(pixel.x() + 0.5, pixel.y() + 0.5);
     };
-    shown.push_back({dimension, {in_widget(*from), in_widget(*to)}});
+    shown.push_back({{in_widget(*from), in_widget(*to)}, TextOf(dimension), ColorOf(dimension), {}});
   }
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   std::vector<QRectF> taken;  // by marks and texts
-  for (const auto& [dimension, line] : shown) {
-    PaintLine(painter, line, ColorOf(dimension));
-    taken.push_back(MarkAt(line.p1()));
-    taken.push_back(MarkAt(line.p2()));
+  for (const Shown& dimension : shown) {
+    PaintLine(painter, dimension.line, dimension.color);
+    taken.push_back(MarkAt(dimension.line.p1()));
+    taken.push_back(MarkAt(dimension.line.p2()));
   }
-  for (const auto& [dimension, line] : shown)
-    PaintText(painter, line.center(), TextOf(dimension), ColorOf(dimension), &taken);
+  for (Shown& dimension : shown) {
+    dimension.plate = PlaceText(painter, dimension.line.center(), dimension.text, &taken);
+    PaintLeader(painter, dimension.line.center(), dimension.plate, dimension.color);
+  }
+  for (const Shown& dimension : shown) PaintText(painter, dimension.plate, dimension.text, dimension.color);
   painter.restore();
 }
 

@@ -12,7 +12,7 @@ namespace elbowroom::console {
 
 // `view`: of a picture in the painter's pixels, whose upper left corner is at `origin`. A line has a mark at
 // either end and its text beside its middle; what is behind the eye is left out. Texts lie over lines; they
-// make room for marks and for one another.
+// make room for marks and for one another, and a dotted line leads to those that are farther away.
 void PaintDimensions(QPainter& painter, const recon::SceneView& view, const QPoint& origin,
                      std::span<const control::Dimension> dimensions);
 
