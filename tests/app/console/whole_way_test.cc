@@ -31,6 +31,7 @@
 #include "cad_import/layout/layout_file.h"
 #include "sessions/session_reader.h"
 #include "tests/app/console/looks/fit_check.h"
+#include "tests/app/console/looks/kept_picture.h"
 #include "tests/app/console/opened_urls.h"
 #include "tests/app/console/window_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -45,11 +46,6 @@ const std::filesystem::path kRig = kData / "four_cameras/rig.yml";
 // In the middle of the person that the footage shows (the data's README).
 constexpr std::array kInThePersonMm = {300.0, -100.0, 700.0};
 constexpr int kFramesRun = 25;
-
-QSize WantedSize() {
-  const QStringList words = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS_SIZE", "1280x720").split('x');
-  return {words.value(0).toInt(), words.value(1).toInt()};
-}
 
 // Its sessions are in a folder that the window chooses from; the theme is there before the window.
 class OwnPlaces {
@@ -78,10 +74,7 @@ class WholeWay : private OwnPlaces, public WindowFixture {
     QWidget& top = widget == nullptr ? window_ : *widget;
     AwaitLayout();
     for (const QString& line : FaultsOfFit(top)) ADD_FAILURE() << line.toStdString();
-    const QString folder = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS");
-    if (folder.isEmpty()) return;
-    QTest::qWait(1500);  // until the picture is drawn in full
-    top.grab().save(QString("%1/%2.png").arg(folder, name));
+    KeepPicture(name, top);
   }
 
   void TakeParts();

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <QStandardItemModel>
-#include <initializer_list>
 
 #include "app/console/view/listing.h"
 #include "app/console/view/name_delegate.h"
@@ -20,7 +19,6 @@ class NamedList : public testing::Test {
     for (const char* name : kNames) model_.appendRow({new QStandardItem(name), new QStandardItem("10,688")});
     model_.setHorizontalHeaderLabels({"Part", "Points"});
     list_.resize(400, 300);
-    list_.show();
   }
   void ExpectAllFit() {
     AwaitLayout();

@@ -8,6 +8,7 @@
 
 #include "app/console/desktop/theme.h"
 #include "tests/app/console/looks/fit_check.h"
+#include "tests/app/console/looks/kept_picture.h"
 
 namespace elbowroom::console {
 namespace {
@@ -28,11 +29,6 @@ const QSet<QString>& EnglishWidgets() {
   static const QSet<QString> names = {"preflight_rows", "calibration_advice", "import_warnings",
                                       "status_progress", "status_driver"};
   return names;
-}
-
-QSize WantedSize() {
-  const QStringList words = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS_SIZE", "1280x720").split('x');
-  return {words.value(0).toInt(), words.value(1).toInt()};
 }
 
 }  // namespace
@@ -74,10 +70,7 @@ void Tour::Look(const char* name, QWidget& top) {
               (top.width() <= WantedSize().width() && top.height() <= WantedSize().height()))
       << top.width() << " x " << top.height();
   for (const QString& line : FaultsOfFit(top)) ADD_FAILURE() << line.toStdString();
-  const QString folder = qEnvironmentVariable("ELBOWROOM_SCREENSHOTS");
-  if (folder.isEmpty()) return;
-  QTest::qWait(1500);  // until the picture is drawn in full
-  top.grab().save(QString("%1/%2.png").arg(folder, name));
+  KeepPicture(name, top);
 }
 
 }  // namespace elbowroom::console
