@@ -46,6 +46,7 @@ void RenderWorker::Run() {
                                               : composer.Compose(*request->result, ViewOf(*request),
                                                                  request->look, request->hull_scale);
       scene.view = ViewOf(*request);
+      scene.largest_px = request->largest_px;
       if (!request->is_smooth) scene.smoothness = recon::gl::Smoothness::kOneSample;
       on_image_(renderer->Render(scene), *request);
       last = *request;

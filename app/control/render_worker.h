@@ -1,6 +1,7 @@
 // The one thread that owns the GL context and every GL object; pictures come out as values.
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -28,6 +29,7 @@ struct RenderRequest {
   std::optional<recon::SceneView> fixed_view = std::nullopt;  // of the picture's size; takes camera's place
   // Drawn as it is, but for its view and smoothness, which are the request's. Null: `result` is drawn.
   std::shared_ptr<const recon::gl::Scene> scene = nullptr;
+  Eigen::Vector2i largest_px = Eigen::Vector2i::Zero();  // as recon::gl::Scene has it
 };
 
 // The latest request wins: one that comes while a picture is being drawn replaces one that waits. When the

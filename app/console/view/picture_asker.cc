@@ -48,10 +48,11 @@ void PictureAsker::Ask() {
 }
 
 void PictureAsker::Submit(const PictureFineness& fineness) {
-  std::optional<control::RenderRequest> request =
-      answers_.request(LargestPicture() * fineness.picture, fineness);
+  const QSize largest = LargestPicture();
+  std::optional<control::RenderRequest> request = answers_.request(largest * fineness.picture, fineness);
   is_outdated_ = false;
   if (!request) return;
+  request->largest_px = {largest.width(), largest.height()};
   drawn_with_ = fineness;
   drawing_.start();
   worker_.Submit(std::move(*request));

@@ -17,7 +17,8 @@ struct PictureFineness {
 };
 
 // Follows the machine: pictures become coarser where they take too long to draw and finer again where there
-// is time, in a few steps and with patience, so that they don't change to and fro. Thread: one.
+// is time, in a few steps and with patience, so that they don't change to and fro. The first ones have one
+// sample a pixel, so that there is soon something to see. Thread: one.
 class PicturePace {
  public:
   // Less than the time of a frame at 30 Hz, so that each frame is drawn although some pictures take longer.
@@ -37,7 +38,7 @@ class PicturePace {
                                                              {0.65, 0.5, false, 0.13},
                                                              {0.5, 0.5, false, 0.1}}};
 
-  std::size_t step_ = 0;
+  std::size_t step_ = 1;
   int in_a_row_ = 0;  // pictures that asked for the same change: above zero coarser, below zero finer
 };
 

@@ -1,6 +1,7 @@
 #include "recon/gl/objects/texture.h"
 
 #include <cstddef>
+#include <vector>
 
 #include "core/error.h"
 
@@ -16,6 +17,21 @@ void ReadTexelsAlone() {
 
 }  // namespace
 
+// Filled, so that software drivers take its memory now.
+void FloatTexture::MakeRoom(const Eigen::Vector2i& room_px) {
+  if (room_px == room_px_) return;
+  const std::vector<float> nothing(static_cast<std::size_t>(room_px.x()) *
+                                   static_cast<std::size_t>(room_px.y()) *
+                                   static_cast<std::size_t>(channels_));
+  glBindTexture(GL_TEXTURE_2D, texture_.get());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexImage2D(GL_TEXTURE_2D, 0, channels_ == 1 ? GL_R32F : GL_RGB32F, room_px.x(), room_px.y(), 0,
+               channels_ == 1 ? GL_RED : GL_RGB, GL_FLOAT, nothing.data());
+  ReadTexelsAlone();
+  room_px_ = room_px;
+  size_px_.setZero();
+}
+
 void FloatTexture::Upload(int width_px, int height_px, std::span<const float> floats) {
   UploadWithin(width_px, height_px, floats, {0, 0, width_px, height_px});
 }
@@ -30,24 +46,19 @@ void FloatTexture::UploadWithin(int width_px, int height_px, std::span<const flo
                                          static_cast<std::size_t>(height_px) *
                                          static_cast<std::size_t>(channels_),
                 "a texture's floats match its size");
-  const GLenum format = channels_ == 1 ? GL_RED : GL_RGB;
+  const Eigen::Vector2i size_px(width_px, height_px);
+  if ((size_px.array() > room_px_.array()).any()) MakeRoom(size_px.cwiseMax(room_px_));
+  const TexelBox renewed = size_px == size_px_ ? texels : TexelBox{0, 0, width_px, height_px};
   glBindTexture(GL_TEXTURE_2D, texture_.get());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  if (width_px == width_px_ && height_px == height_px_) {
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, width_px);
-    glPixelStorei(GL_UNPACK_SKIP_PIXELS, texels.x);
-    glPixelStorei(GL_UNPACK_SKIP_ROWS, texels.y);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, texels.x, texels.y, texels.right - texels.x, texels.bottom - texels.y,
-                    format, GL_FLOAT, floats.data());
-    for (const GLenum what : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS})
-      glPixelStorei(what, 0);
-    return;
-  }
-  glTexImage2D(GL_TEXTURE_2D, 0, channels_ == 1 ? GL_R32F : GL_RGB32F, width_px, height_px, 0, format,
-               GL_FLOAT, floats.data());
-  ReadTexelsAlone();
-  width_px_ = width_px;
-  height_px_ = height_px;
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, width_px);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, renewed.x);
+  glPixelStorei(GL_UNPACK_SKIP_ROWS, renewed.y);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, renewed.x, renewed.y, renewed.right - renewed.x,
+                  renewed.bottom - renewed.y, channels_ == 1 ? GL_RED : GL_RGB, GL_FLOAT, floats.data());
+  for (const GLenum what : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_ROWS})
+    glPixelStorei(what, 0);
+  size_px_ = size_px;
 }
 
 void FloatTexture::BindTo(int unit) const {

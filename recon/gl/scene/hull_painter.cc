@@ -19,13 +19,13 @@ constexpr const char* kLayerSource = R"(
 uniform sampler2D layer_depth;
 uniform vec2 view_size;
 uniform vec2 near_far;
+uniform ivec2 layer_size;
 float DepthAt(ivec2 texel) {
-  ivec2 size = textureSize(layer_depth, 0);
-  bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
-  float depth = texelFetch(layer_depth, clamp(texel, ivec2(0), size - 1), 0).r;
+  bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, layer_size));
+  float depth = texelFetch(layer_depth, clamp(texel, ivec2(0), layer_size - 1), 0).r;
   return inside ? depth : 0.0;
 }
-vec2 PlaceInLayer() { return gl_FragCoord.xy * vec2(textureSize(layer_depth, 0)) / view_size; }
+vec2 PlaceInLayer() { return gl_FragCoord.xy * vec2(layer_size) / view_size; }
 float BufferDepth(float depth) {
   return near_far.y / (near_far.y - near_far.x) * (1.0 - near_far.x / depth);
 }
@@ -44,6 +44,7 @@ void main() {
 constexpr const char* kLookSource = R"(
 uniform sampler2D layer_normal;
 uniform sampler2D layer_camera_color;
+uniform bool has_normals;
 uniform bool has_camera_color;
 uniform bool is_flat;
 uniform float focal_px;
@@ -56,10 +57,10 @@ const float kHullSlackMm = 3.0;
 
 vec3 Ray(vec2 window) { return vec3((window - 0.5 * view_size) / focal_px, 1.0); }
 vec3 PointAt(ivec2 texel, float depth) {
-  return depth * Ray((vec2(texel) + 0.5) * view_size / vec2(textureSize(layer_depth, 0)));
+  return depth * Ray((vec2(texel) + 0.5) * view_size / vec2(layer_size));
 }
 vec3 NormalInWorld(ivec2 texel) {
-  return texelFetch(layer_normal, min(texel, textureSize(layer_normal, 0) - 1), 0).xyz;
+  return has_normals ? texelFetch(layer_normal, min(texel, layer_size - 1), 0).xyz : vec3(0.0);
 }
 // Of the cameras; the colour times its trust.
 vec4 CameraColor(ivec2 texel) {
@@ -169,6 +170,11 @@ bool ShowsCameraColor(const Scene& scene) {
   return HasPixelColors(scene.hull_appearance) && !scene.hull_camera_color.empty();
 }
 
+// The layer of the finest picture to come is as large as that picture.
+Eigen::Vector2i RoomFor(const HullView& layer, const Scene& scene) {
+  return scene.largest_px.cwiseMax(Eigen::Vector2i(layer.width_px, layer.height_px));
+}
+
 }  // namespace
 
 HullPainter::HullPainter()
@@ -182,10 +188,8 @@ HullPainter::HullPainter()
 void HullPainter::UploadSurface(const Scene& scene, const TexelBox& texels) {
   const HullView& layer = *scene.hull;
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "normals upload as packed floats");
-  const Eigen::Vector3f unknown = Eigen::Vector3f::Zero();
-  if (layer.normal_in_world.empty()) {
-    normal_.Upload(1, 1, {unknown.data(), 3});
-  } else {
+  if (!layer.normal_in_world.empty()) {
+    normal_.MakeRoom(RoomFor(layer, scene));
     normal_.UploadWithin(layer.width_px, layer.height_px,
                          {layer.normal_in_world.front().data(), 3 * layer.normal_in_world.size()}, texels);
   }
@@ -216,9 +220,11 @@ void HullPainter::Draw(const Scene& scene, const ViewMatrices& matrices, const L
   program.Set("cam_from_world", matrices.cam_from_world);
   program.Set("color", scene.hull_color);
   program.Set("is_flat", scene.hull_appearance == HullAppearance::kFlat ? 1 : 0);
+  program.Set("has_normals", layer.normal_in_world.empty() ? 0 : 1);
   program.Set("has_camera_color", ShowsCameraColor(scene) ? 1 : 0);
   program.Set("layer_camera_color", kCameraColorUnit);
   light.Apply(program, matrices);
+  depth_.MakeRoom(RoomFor(layer, scene));
   if (!is_by_texel) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   DrawWith(program, layer, matrices.view, squares);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
@@ -238,6 +244,7 @@ void HullPainter::DrawWith(const ShaderProgram& program, const HullView& layer, 
   normal_.BindTo(kNormalUnit);
   camera_color_.BindTo(kCameraColorUnit);
   program.Set("layer_depth", kDepthUnit);
+  program.Set("layer_size", Eigen::Vector2i(layer.width_px, layer.height_px));
   program.Set("view_size",
               Eigen::Vector2f(static_cast<float>(view.width_px), static_cast<float>(view.height_px)));
   program.Set("near_far", Eigen::Vector2f(static_cast<float>(view.near_mm), static_cast<float>(view.far_mm)));

@@ -47,6 +47,9 @@ enum class Smoothness { kOneSample, kFourSamples };
 
 struct Scene {
   SceneView view;
+  // Width and height of the largest picture to come in place of this one. Buffers are made for it at once and
+  // kept, so that pictures that become finer or coarser take no new memory. Less than the view's: the view's.
+  Eigen::Vector2i largest_px = Eigen::Vector2i::Zero();
   Smoothness smoothness = Smoothness::kFourSamples;
   std::vector<ScenePart> parts;
   // The hull from the scene's view; null: none. Texel (i, j) of one with the view's own size is pixel (i, j);

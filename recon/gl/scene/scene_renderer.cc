@@ -25,16 +25,13 @@ constexpr int kSamples = 4;  // OpenGL 3.3 promises as many
 
 struct Targets {
   Framebuffer single;
-  std::optional<Framebuffer> sampled;  // nothing: pictures are drawn into `single`
-
-  Targets(const SceneView& view, Smoothness smoothness) : single(view.width_px, view.height_px, 1) {
-    if (smoothness == Smoothness::kFourSamples) sampled.emplace(view.width_px, view.height_px, kSamples);
-  }
-  [[nodiscard]] bool Fit(const SceneView& view, Smoothness smoothness) const {
-    return single.width_px() == view.width_px && single.height_px() == view.height_px &&
-           sampled.has_value() == (smoothness == Smoothness::kFourSamples);
-  }
+  std::optional<Framebuffer> sampled;  // made for the first picture with several samples a pixel
 };
+
+// What buffers for the scene's pictures hold.
+Eigen::Vector2i RoomPx(const Scene& scene) {
+  return scene.largest_px.cwiseMax(Eigen::Vector2i(scene.view.width_px, scene.view.height_px));
+}
 
 }  // namespace
 
@@ -60,7 +57,7 @@ class SceneRenderer::Impl {
   void DrawAll(const Scene& scene, const ViewMatrices& matrices, const Framebuffer& target);
   void DrawOnStillLayer(const Scene& scene, const ViewMatrices& matrices, const Framebuffer& target,
                         StillLayer::Need need, StillContent content);
-  [[nodiscard]] const Targets& TargetsFor(const SceneView& view, Smoothness smoothness);
+  [[nodiscard]] const Targets& TargetsFor(const Scene& scene);
 
   EglContext context_;
   std::thread::id thread_ = std::this_thread::get_id();
@@ -75,17 +72,21 @@ class SceneRenderer::Impl {
   std::optional<Targets> targets_;
 };
 
-const Targets& SceneRenderer::Impl::TargetsFor(const SceneView& view, Smoothness smoothness) {
-  if (!targets_ || !targets_->Fit(view, smoothness)) {
+const Targets& SceneRenderer::Impl::TargetsFor(const Scene& scene) {
+  const Eigen::Vector2i room_px = RoomPx(scene);
+  if (!targets_ || targets_->single.width_px() != room_px.x() ||
+      targets_->single.height_px() != room_px.y()) {
     targets_.reset();
-    targets_.emplace(view, smoothness);
+    targets_.emplace(Framebuffer(room_px.x(), room_px.y(), 1), std::nullopt);
   }
+  if (scene.smoothness == Smoothness::kFourSamples && !targets_->sampled)
+    targets_->sampled.emplace(room_px.x(), room_px.y(), kSamples);
   return *targets_;
 }
 
 void SceneRenderer::Impl::DrawAll(const Scene& scene, const ViewMatrices& matrices,
                                   const Framebuffer& target) {
-  target.Bind();
+  target.Bind(scene.view.width_px, scene.view.height_px);
   glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   surroundings_.DrawBackground(scene);
   // With one sample a pixel that is hidden is found out before it is shaded.
@@ -103,7 +104,7 @@ void SceneRenderer::Impl::DrawOnStillLayer(const Scene& scene, const ViewMatrice
   if (need == StillLayer::Need::kNothing) {
     ++still_count_.kept;
   } else {
-    still_.BeginDrawing(need, scene.view);
+    still_.BeginDrawing(need, scene.view, RoomPx(scene));
     surroundings_.DrawBackground(scene);
     parts_.DrawOpaqueDepth(scene.parts, matrices);
     parts_.DrawOpaque(scene.parts, matrices, lighting_, HullShadow::kLeftOut);
@@ -127,7 +128,8 @@ void SceneRenderer::Impl::DrawOnStillLayer(const Scene& scene, const ViewMatrice
 
 Image SceneRenderer::Impl::Render(const Scene& scene) {
   const ViewMatrices matrices = MatricesOf(scene.view);
-  const Targets& targets = TargetsFor(scene.view, scene.smoothness);
+  const Targets& targets = TargetsFor(scene);
+  const bool has_samples = scene.smoothness == Smoothness::kFourSamples;
   parts_.Update(scene.parts, scene.view);
   lighting_.Update(scene, parts_);
   auto need = StillLayer::Need::kNoLayer;
@@ -137,11 +139,12 @@ Image SceneRenderer::Impl::Render(const Scene& scene) {
   if (need != StillLayer::Need::kNoLayer) {
     DrawOnStillLayer(scene, matrices, targets.single, need, std::move(*content));
   } else {
-    DrawAll(scene, matrices, targets.sampled ? *targets.sampled : targets.single);
+    DrawAll(scene, matrices, has_samples ? *targets.sampled : targets.single);
   }
   parts_.DrawTransparent(scene.parts, matrices, lighting_);
   contacts_.Draw(scene.contact_points_in_world, matrices);
-  if (targets.sampled) targets.single.ResolveColourFrom(*targets.sampled);
+  if (has_samples)
+    targets.single.ResolveColourFrom(*targets.sampled, scene.view.width_px, scene.view.height_px);
   targets.single.BindForReading();
   Image image{scene.view.width_px, scene.view.height_px, {}};
   image.rgb.resize(3 * static_cast<std::size_t>(image.width_px) * static_cast<std::size_t>(image.height_px));
@@ -152,9 +155,9 @@ Image SceneRenderer::Impl::Render(const Scene& scene) {
 
 DepthImage SceneRenderer::Impl::RenderDepth(const Scene& scene) {
   const ViewMatrices matrices = MatricesOf(scene.view);
-  const Targets& targets = TargetsFor(scene.view, scene.smoothness);
+  const Targets& targets = TargetsFor(scene);
   parts_.Update(scene.parts, scene.view);
-  targets.single.Bind();
+  targets.single.Bind(scene.view.width_px, scene.view.height_px);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   parts_.DrawDepth(scene.parts, matrices);
   if (scene.hull != nullptr) hull_.DrawDepth(*scene.hull, matrices);

@@ -110,7 +110,8 @@ std::vector<Eigen::AlignedBox2f> Widened(std::vector<Eigen::AlignedBox2f> boxes,
 
 }  // namespace
 
-StillLayer::Buffers::Buffers(int width, int height) : width_px(width), height_px(height) {
+StillLayer::Buffers::Buffers(const Eigen::Vector2i& room) : room_px(room) {
+  const int width = room.x(), height = room.y();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.get());
   MakeTexture(lit.get(), GL_RGBA8, GL_UNSIGNED_BYTE, width, height, GL_COLOR_ATTACHMENT0);
   MakeTexture(unlit.get(), GL_RGBA8, GL_UNSIGNED_BYTE, width, height, GL_COLOR_ATTACHMENT1);
@@ -122,6 +123,7 @@ StillLayer::Buffers::Buffers(int width, int height) : width_px(width), height_px
   glDrawBuffers(static_cast<GLsizei>(kAll.size()), kAll.data());
   glReadBuffer(GL_COLOR_ATTACHMENT0);
   ThrowUnlessDrawable(fmt::format("a picture's still parts of {} x {} pixels", width, height));
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);  // takes the memory now
 }
 
 StillLayer::StillLayer()
@@ -150,8 +152,7 @@ StillLayer::Need StillLayer::NeedFor(const StillContent& content) {
 
 // A pixel differs only where a part is or was drawn, or where it looks up a shadow that differs.
 std::vector<std::size_t> StillLayer::StaleTiles(const StillChange& change) const {
-  const Eigen::Vector2f size_px(static_cast<float>(buffers_->width_px),
-                                static_cast<float>(buffers_->height_px));
+  const Eigen::Vector2f size_px(static_cast<float>(width_px_), static_cast<float>(height_px_));
   const std::vector<Eigen::AlignedBox2f> in_picture =
       Widened(change.in_picture, Eigen::Vector2f::Constant(kEdgePx).cwiseQuotient(size_px));
   const std::vector<Eigen::AlignedBox2f> in_lamp =
@@ -166,7 +167,7 @@ std::vector<std::size_t> StillLayer::StaleTiles(const StillChange& change) const
   return stale;
 }
 
-void StillLayer::BeginDrawing(Need need, const SceneView& view) {
+void StillLayer::BeginDrawing(Need need, const SceneView& view, const Eigen::Vector2i& room_px) {
   content_.reset();  // what is drawn from here on may fail
   if (need == Need::kSquares) {
     EmptyStaleTiles();
@@ -174,10 +175,12 @@ void StillLayer::BeginDrawing(Need need, const SceneView& view) {
     square_count_.left += static_cast<std::int64_t>(tiles_.size() - stale_.size());
     return;
   }
-  if (!buffers_ || buffers_->width_px != view.width_px || buffers_->height_px != view.height_px) {
+  if (!buffers_ || buffers_->room_px != room_px) {
     buffers_.reset();
-    buffers_.emplace(view.width_px, view.height_px);
+    buffers_.emplace(room_px);
   }
+  width_px_ = view.width_px;
+  height_px_ = view.height_px;
   tiles_.clear();
   stale_.clear();
   for (int y = 0; y < view.height_px; y += kSquarePx)
@@ -186,7 +189,7 @@ void StillLayer::BeginDrawing(Need need, const SceneView& view) {
       tiles_.push_back({x, y, {}});
     }
   glBindFramebuffer(GL_FRAMEBUFFER, buffers_->framebuffer.get());
-  glViewport(0, 0, buffers_->width_px, buffers_->height_px);
+  glViewport(0, 0, width_px_, height_px_);
   glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
@@ -194,10 +197,10 @@ void StillLayer::BeginDrawing(Need need, const SceneView& view) {
 void StillLayer::EmptyStaleTiles() {
   std::vector<float> corners;
   for (const std::size_t i : stale_)
-    AppendSquare(tiles_[i].x_px, tiles_[i].y_px, buffers_->width_px, buffers_->height_px, corners);
+    AppendSquare(tiles_[i].x_px, tiles_[i].y_px, width_px_, height_px_, corners);
   corners_.Upload(corners, Refill::kEachFrame);
   glBindFramebuffer(GL_FRAMEBUFFER, buffers_->framebuffer.get());
-  glViewport(0, 0, buffers_->width_px, buffers_->height_px);
+  glViewport(0, 0, width_px_, height_px_);
   glClear(GL_STENCIL_BUFFER_BIT);
   glEnable(GL_STENCIL_TEST);
   glStencilFunc(GL_ALWAYS, 1, 1U);
@@ -215,12 +218,11 @@ void StillLayer::EmptyStaleTiles() {
 void StillLayer::EndDrawing(StillContent content, const ViewMatrices& matrices, const SceneLamp& lamp) {
   glDisable(GL_STENCIL_TEST);
   glClear(GL_STENCIL_BUFFER_BIT);
-  const int width_px = buffers_->width_px, height_px = buffers_->height_px;
-  TexelBox box{width_px, height_px, 0, 0};
+  TexelBox box{width_px_, height_px_, 0, 0};
   for (const std::size_t i : stale_) {
     box = {std::min(box.x, tiles_[i].x_px), std::min(box.y, tiles_[i].y_px),
-           std::max(box.right, std::min(tiles_[i].x_px + kSquarePx, width_px)),
-           std::max(box.bottom, std::min(tiles_[i].y_px + kSquarePx, height_px))};
+           std::max(box.right, std::min(tiles_[i].x_px + kSquarePx, width_px_)),
+           std::max(box.bottom, std::min(tiles_[i].y_px + kSquarePx, height_px_))};
   }
   const int across = box.right - box.x;
   std::vector<Eigen::Vector4f> places(static_cast<std::size_t>(across) *
@@ -232,8 +234,8 @@ void StillLayer::EndDrawing(StillContent content, const ViewMatrices& matrices, 
   tbb::parallel_for(std::size_t{0}, stale_.size(), [&](std::size_t i) {
     Tile& tile = tiles_[stale_[i]];
     tile.in_lamp.setEmpty();
-    for (int y = tile.y_px; y < std::min(tile.y_px + kSquarePx, height_px); ++y)
-      for (int x = tile.x_px; x < std::min(tile.x_px + kSquarePx, width_px); ++x) {
+    for (int y = tile.y_px; y < std::min(tile.y_px + kSquarePx, height_px_); ++y)
+      for (int x = tile.x_px; x < std::min(tile.x_px + kSquarePx, width_px_); ++x) {
         const float depth_mm =
             places[static_cast<std::size_t>((y - box.y) * across + x - box.x)].head<3>().norm();
         if (const auto share = depth_mm > 0.0F ? in_lamp.Of(x, y, depth_mm) : std::nullopt)
@@ -245,16 +247,15 @@ void StillLayer::EndDrawing(StillContent content, const ViewMatrices& matrices, 
 }
 
 void StillLayer::ShowIn(const Framebuffer& target, const ViewMatrices& matrices, const Lighting& light) {
-  const int width_px = buffers_->width_px, height_px = buffers_->height_px;
   glBindFramebuffer(GL_READ_FRAMEBUFFER, buffers_->framebuffer.get());
   target.BindForDrawing();
-  glBlitFramebuffer(0, 0, width_px, height_px, 0, 0, width_px, height_px,
+  glBlitFramebuffer(0, 0, width_px_, height_px_, 0, 0, width_px_, height_px_,
                     GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT, GL_NEAREST);
-  target.Bind();
+  target.Bind(width_px_, height_px_);
   std::vector<float> corners;
   for (const Tile& tile : tiles_)
     if (light.hull_reach().Meets(tile.in_lamp))
-      AppendSquare(tile.x_px, tile.y_px, width_px, height_px, corners);
+      AppendSquare(tile.x_px, tile.y_px, width_px_, height_px_, corners);
   if (corners.empty()) return;
   corners_.Upload(corners, Refill::kEachFrame);
   shadow_program_.Use();
@@ -263,7 +264,7 @@ void StillLayer::ShowIn(const Framebuffer& target, const ViewMatrices& matrices,
   shadow_program_.Set("kept_unlit", kUnlitUnit);
   shadow_program_.Set("kept_place", kPlaceUnit);
   shadow_program_.Set("view_size",
-                      Eigen::Vector2f(static_cast<float>(width_px), static_cast<float>(height_px)));
+                      Eigen::Vector2f(static_cast<float>(width_px_), static_cast<float>(height_px_)));
   shadow_program_.Set("focal_px", static_cast<float>(matrices.view.focal_px));
   BindTexture(kLitUnit, buffers_->lit.get());
   BindTexture(kUnlitUnit, buffers_->unlit.get());

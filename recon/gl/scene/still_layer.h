@@ -41,8 +41,9 @@ class StillLayer {
 
   // Empties the layer, or, for kSquares, those of its squares that differ from the content that NeedFor was
   // given, and makes it the target of drawing. Shaders write `pixel`, `unlit` and `place` there, within those
-  // squares alone. Throws: Error{kGraphics} when the driver can't hold it.
-  void BeginDrawing(Need need, const SceneView& view);
+  // squares alone. `room_px`: the largest view to come. Throws: Error{kGraphics} when the driver can't hold
+  // it.
+  void BeginDrawing(Need need, const SceneView& view, const Eigen::Vector2i& room_px);
 
   // The layer shows the content, which NeedFor was given, from here on. Looks where each square of the
   // picture that is new stands in the lamp's.
@@ -50,7 +51,7 @@ class StillLayer {
 
   [[nodiscard]] const SquareCount& square_count() const { return square_count_; }  // since the start
 
-  // Copies colours and depths to the target, which has the same size and one sample, and puts the hull's
+  // Copies colours and depths to the target, which has room for them and one sample, and puts the hull's
   // shadow on them, in those pieces that it can reach. The target is bound afterwards.
   void ShowIn(const Framebuffer& target, const ViewMatrices& matrices, const Lighting& light);
 
@@ -62,8 +63,8 @@ class StillLayer {
     Eigen::AlignedBox2f in_lamp;  // around its surfaces, in shares of the lamp's picture; empty: none
   };
   struct Buffers {
-    Buffers(int width_px, int height_px);
-    int width_px, height_px;
+    explicit Buffers(const Eigen::Vector2i& room_px);
+    Eigen::Vector2i room_px;  // of which the layer takes the lower left corner
     GlName<TextureKind> lit, unlit, place;
     GlName<RenderbufferKind> depth;
     GlName<FramebufferKind> framebuffer;
@@ -75,6 +76,7 @@ class StillLayer {
   ShaderProgram empty_program_;
   VertexArray corners_{2};
   std::optional<Buffers> buffers_;
+  int width_px_ = 0, height_px_ = 0;  // of the layer
   std::optional<StillContent> content_, asked_for_;
   std::vector<Tile> tiles_;
   std::vector<std::size_t> stale_;  // places in tiles_, to be drawn

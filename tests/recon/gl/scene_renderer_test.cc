@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@
 #include "recon/appearance/orbit_camera.h"
 #include "recon/images/png_file.h"
 #include "tests/recon/gl/sample_scene.h"
+#include "tests/support/resident_memory.h"
 
 namespace elbowroom::recon::gl {
 namespace {
@@ -155,6 +157,26 @@ TEST(SceneRenderer, OneSampleShowsTheSamePictureButForItsEdges) {
     off += std::abs(int{smooth.rgb[i]} - int{jagged.rgb[i]}) > 8;
   constexpr double kMostEdges = 0.05;  // of the picture's values: outlines and the grid's lines
   EXPECT_LT(off, kMostEdges * static_cast<double>(smooth.rgb.size()));
+}
+
+TEST(SceneRenderer, PicturesThatBecomeFinerTakeNoMemory) {
+  constexpr int kWidthPx = 1280, kHeightPx = 800;
+  constexpr double kMostMb = 2.0;  // a still layer of that size has 29
+  SceneRenderer renderer;
+  if (!renderer.is_software()) GTEST_SKIP() << "the graphics card's memory isn't the process's";
+  const auto draw = [&](double share, Smoothness smoothness) {
+    Scene scene = TrialScene(static_cast<int>(share * kWidthPx), static_cast<int>(share * kHeightPx));
+    scene.largest_px = {kWidthPx, kHeightPx};
+    scene.smoothness = smoothness;
+    scene.hull = CastLayer(scene.view, 32, 20, Hand({55, 0, 225}));
+    for (int i = 0; i < 3; ++i) (void)renderer.Render(scene);
+    return 1e-6 * static_cast<double>(test_support::ResidentBytes(::getpid()));
+  };
+  draw(1.0, Smoothness::kFourSamples);
+  const double coarse_mb = draw(0.5, Smoothness::kOneSample);
+  for (const double share : {0.65, 0.8, 1.0})
+    EXPECT_LE(draw(share, Smoothness::kOneSample), coarse_mb + kMostMb) << share;
+  EXPECT_GE(draw(0.5, Smoothness::kOneSample), coarse_mb - kMostMb);
 }
 
 TEST(SceneRenderer, LayerWithoutNormalsIsShadedFromItsDepths) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
+#include <vector>
 
 #include "recon/gl/scene/scene_renderer.h"
 #include "recon/gl/scene/shadow_reach.h"
@@ -210,6 +211,37 @@ TEST_F(KeptPictures, AreTheSameBytesAgainAndAgain) {
   Scene wider = TrialScene(kStillWidthPx + 31, kStillHeightPx);
   wider.smoothness = Smoothness::kOneSample;
   for (int i = 0; i < 3; ++i) ExpectSame(wider);
+}
+
+// As the window asks for them: finer and coarser, in buffers that hold the finest.
+TEST_F(KeptPictures, OfChangingFinenessAreThoseDrawnAnew) {
+  struct Step {
+    int width_px, height_px;
+    double hull;
+    Smoothness smoothness;
+  };
+  const std::vector<Step> steps = {
+      {320, 240, 1.0, Smoothness::kFourSamples}, {320, 240, 1.0, Smoothness::kOneSample},
+      {160, 120, 0.5, Smoothness::kOneSample},   {208, 156, 0.5, Smoothness::kOneSample},
+      {256, 192, 0.5, Smoothness::kFourSamples}, {256, 192, 1.0, Smoothness::kOneSample}};
+  std::mt19937 random(17);
+  for (int i = 0; i < 24; ++i) {
+    const Step& step =
+        steps[i < static_cast<int>(steps.size()) ? static_cast<std::size_t>(i) : random() % steps.size()];
+    SCOPED_TRACE(testing::Message() << step.width_px << " x " << step.height_px << ", hull " << step.hull);
+    Scene scene = TrialScene(step.width_px, step.height_px);
+    scene.smoothness = step.smoothness;
+    const std::vector<Capsule> hand = Hand({-100.0 + 8.0 * i, 20.0, 225.0});
+    scene.hull = CastLayer(scene.view, static_cast<int>(step.hull * step.width_px),
+                           static_cast<int>(step.hull * step.height_px), hand);
+    for (int j = 0; j < 3; ++j) {
+      Scene in_room = scene;
+      in_room.largest_px = {kStillWidthPx, kStillHeightPx};
+      const Difference difference = DifferenceOf(kept_.Render(in_room), anew_.Render(scene));
+      EXPECT_LE(difference.largest, 2) << difference.above_two << " channels";
+    }
+  }
+  EXPECT_GT(kept_.still_count().kept, 0);
 }
 
 TEST(ShadowReach, HoldsEachPlaceThatReadsAHit) {
