@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -22,7 +23,8 @@ constexpr double kBelowTableMm = 1.0;  // that a part may reach down: what is le
 // A layer of which more than this share has changed isn't worth renewing for a content that may not come
 // again.
 constexpr double kWorthRenewing = 0.5;
-constexpr float kEdgePx = 2.0F;                             // that a part's edges may be drawn beside its box
+constexpr int kBandPx = 4 * kSquarePx;  // rows that are read back at once: a megabyte or two
+constexpr float kEdgePx = 2.0F;         // that a part's edges may be drawn beside its box
 constexpr float kReachTexels = 2.0F * kShadowFilterTexels;  // of the parts' shadow, rounded generously
 
 constexpr const char* kEmptySource = R"(
@@ -66,8 +68,10 @@ void BindTexture(int unit, GLuint texture) {
   glActiveTexture(GL_TEXTURE0);
 }
 
+}  // namespace
+
 // Where what a pixel shows is in the lamp's picture, as kLightingSource has it.
-class LampPlace {
+class StillLayer::LampPlace {
  public:
   LampPlace(const SceneView& view, const SceneLamp& lamp)
       : middle_px_(0.5F * static_cast<float>(view.width_px), 0.5F * static_cast<float>(view.height_px)),
@@ -96,6 +100,8 @@ class LampPlace {
   Eigen::Vector3f translation_mm_;
   float focal_share_ = 1.0F;
 };
+
+namespace {
 
 bool MeetsAny(const Eigen::AlignedBox2f& box, const std::vector<Eigen::AlignedBox2f>& others) {
   return !box.isEmpty() &&
@@ -218,21 +224,35 @@ void StillLayer::EmptyStaleTiles() {
 void StillLayer::EndDrawing(StillContent content, const ViewMatrices& matrices, const SceneLamp& lamp) {
   glDisable(GL_STENCIL_TEST);
   glClear(GL_STENCIL_BUFFER_BIT);
+  const LampPlace in_lamp(matrices.view, lamp);
+  glReadBuffer(GL_COLOR_ATTACHMENT2);
+  std::vector<Eigen::Vector4f> places;
+  // They are in the order of rows.
+  for (auto begin = stale_.cbegin(); begin != stale_.cend();) {
+    const int bottom_px = tiles_[*begin].y_px + kBandPx;
+    const auto end =
+        std::find_if(begin, stale_.cend(), [&](std::size_t i) { return tiles_[i].y_px >= bottom_px; });
+    PlaceInLamp({begin, end}, in_lamp, places);
+    begin = end;
+  }
+  glReadBuffer(GL_COLOR_ATTACHMENT0);
+  part_shadow_px_ = lamp.part_shadow_px;
+  content_ = std::move(content);
+}
+
+void StillLayer::PlaceInLamp(std::span<const std::size_t> band, const LampPlace& in_lamp,
+                             std::vector<Eigen::Vector4f>& places) {
   TexelBox box{width_px_, height_px_, 0, 0};
-  for (const std::size_t i : stale_) {
+  for (const std::size_t i : band) {
     box = {std::min(box.x, tiles_[i].x_px), std::min(box.y, tiles_[i].y_px),
            std::max(box.right, std::min(tiles_[i].x_px + kSquarePx, width_px_)),
            std::max(box.bottom, std::min(tiles_[i].y_px + kSquarePx, height_px_))};
   }
   const int across = box.right - box.x;
-  std::vector<Eigen::Vector4f> places(static_cast<std::size_t>(across) *
-                                      static_cast<std::size_t>(box.bottom - box.y));
-  glReadBuffer(GL_COLOR_ATTACHMENT2);
+  places.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(box.bottom - box.y));
   glReadPixels(box.x, box.y, across, box.bottom - box.y, GL_RGBA, GL_FLOAT, places.data());
-  glReadBuffer(GL_COLOR_ATTACHMENT0);
-  const LampPlace in_lamp(matrices.view, lamp);
-  tbb::parallel_for(std::size_t{0}, stale_.size(), [&](std::size_t i) {
-    Tile& tile = tiles_[stale_[i]];
+  tbb::parallel_for(std::size_t{0}, band.size(), [&](std::size_t i) {
+    Tile& tile = tiles_[band[i]];
     tile.in_lamp.setEmpty();
     for (int y = tile.y_px; y < std::min(tile.y_px + kSquarePx, height_px_); ++y)
       for (int x = tile.x_px; x < std::min(tile.x_px + kSquarePx, width_px_); ++x) {
@@ -242,8 +262,6 @@ void StillLayer::EndDrawing(StillContent content, const ViewMatrices& matrices, 
           tile.in_lamp.extend(*share);
       }
   });
-  part_shadow_px_ = lamp.part_shadow_px;
-  content_ = std::move(content);
 }
 
 void StillLayer::ShowIn(const Framebuffer& target, const ViewMatrices& matrices, const Lighting& light) {

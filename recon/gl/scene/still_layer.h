@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "recon/gl/objects/framebuffer.h"
@@ -71,6 +72,10 @@ class StillLayer {
   };
   [[nodiscard]] std::vector<std::size_t> StaleTiles(const StillChange& change) const;
   void EmptyStaleTiles();
+  // Finds where these squares' surfaces stand in the lamp's picture. `places`: room to read them back to.
+  class LampPlace;
+  void PlaceInLamp(std::span<const std::size_t> band, const LampPlace& in_lamp,
+                   std::vector<Eigen::Vector4f>& places);
 
   ShaderProgram shadow_program_;
   ShaderProgram empty_program_;
@@ -79,7 +84,7 @@ class StillLayer {
   int width_px_ = 0, height_px_ = 0;  // of the layer
   std::optional<StillContent> content_, asked_for_;
   std::vector<Tile> tiles_;
-  std::vector<std::size_t> stale_;  // places in tiles_, to be drawn
+  std::vector<std::size_t> stale_;  // places in tiles_, ascending, to be drawn
   int part_shadow_px_ = 1;
   SquareCount square_count_;
 };
