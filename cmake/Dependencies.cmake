@@ -45,6 +45,10 @@ find_package(Haru REQUIRED)
 find_package(OpenCVParts REQUIRED)   # only the modules in use; Debian ships no CMake config for single modules
 if(ELBOWROOM_CONSOLE)
   find_package(Qt6 REQUIRED COMPONENTS Widgets Test)
+  # Each test's source folder, which no test asks for: without it the compiler's cache serves every clone.
+  get_target_property(definitions Qt6::Test INTERFACE_COMPILE_DEFINITIONS)
+  list(FILTER definitions EXCLUDE REGEX "^QT_TESTCASE_")
+  set_target_properties(Qt6::Test PROPERTIES INTERFACE_COMPILE_DEFINITIONS "${definitions}")
 endif()
 
 # The readers of STEP, IGES and BREP, and what they need to mesh; OpenCASCADE's targets carry no include folder of their own.

@@ -87,16 +87,12 @@ function(elbowroom_test name)
   else()
     elbowroom_use_precompiled(${name} precompiled_tests)
   endif()
-  target_link_libraries(${name} PRIVATE ${TEST_USES} GTest::gtest GTest::gtest_main elbowroom_warnings)
+  target_link_libraries(${name} PRIVATE ${TEST_USES} elbowroom_test_places GTest::gtest GTest::gtest_main elbowroom_warnings)
   if(TEST_IMPORTS)
     target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/support/importing_main.cc)
     target_link_libraries(${name} PRIVATE elbowroom_cad_import)
   endif()
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_compile_definitions(${name} PRIVATE
-    ELBOWROOM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    ELBOWROOM_SHARED_DATA_DIR="${PROJECT_SOURCE_DIR}/../shared/data"
-    ELBOWROOM_PROGRAM="${PROJECT_BINARY_DIR}/elbowroom")
   elbowroom_finds_modules(${name} ${PROJECT_BINARY_DIR})
   include(GoogleTest)
   set(properties LABELS "${TEST_LABELS}")

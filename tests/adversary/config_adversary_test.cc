@@ -17,6 +17,7 @@
 #include "core/plain_text.h"
 #include "tests/adversary/damaged_configuration.h"
 #include "tests/adversary/foreign_texts.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
@@ -43,7 +44,7 @@ long LargestChildKb() {
 }
 
 ProgramRun Elbowroom(const std::vector<std::string>& words, const fs::path& folder) {
-  return test_support::RunProgram(ELBOWROOM_PROGRAM, words,
+  return test_support::RunProgram(test_support::ProgramFile(), words,
                                   {.working_folder = folder, .timeout_s = kLongestS});
 }
 

@@ -16,6 +16,7 @@
 #include "tests/adversary/disk_mount.h"
 #include "tests/adversary/recorded_session.h"
 #include "tests/adversary/sample_trial_files.h"
+#include "tests/support/places.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
 
@@ -39,7 +40,7 @@ TEST(CutOffSession, OpensOnAReadOnlyMedium) {
     frames_before = WaitForFrames(session, 100, process);
     kill(process, SIGKILL);
   };
-  (void)test_support::RunProgram(ELBOWROOM_PROGRAM,
+  (void)test_support::RunProgram(test_support::ProgramFile(),
                                  {"trial", "run", WriteMaskTrial(folder / "files", 1000).string(),
                                   "--headless", "--session", session.string()},
                                  options);
@@ -47,7 +48,8 @@ TEST(CutOffSession, OpensOnAReadOnlyMedium) {
   fs::remove(session.string() + "-shm");
   ASSERT_TRUE(disk->RemountReadOnly());
   const ProgramRun report = test_support::RunProgram(
-      ELBOWROOM_PROGRAM, {"report", session.string(), "--out", (folder / "report").string()}, AsInATest());
+      test_support::ProgramFile(), {"report", session.string(), "--out", (folder / "report").string()},
+      AsInATest());
   EXPECT_EQ(report.exit_status, 0) << report.err;
   EXPECT_GE(sessions::SessionReader(session).frame_count(), frames_before);
   EXPECT_EQ(sessions::SessionReader(session).status(), sessions::SessionStatus::kCutOff);
@@ -121,7 +123,8 @@ ProgramRun RunDisturbed(const TrialKind& trial, const Disturbance& disturbance, 
     disturbance.act(session, process);
     if (trial.is_live) kill(process, SIGINT);
   };
-  ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, trial.words(files, session), options);
+  ProgramRun run =
+      test_support::RunProgram(test_support::ProgramFile(), trial.words(files, session), options);
   std::string told = run.exit_status == 0 ? "" : run.err.substr(0, run.err.find('\n'));
   const nlohmann::json summary = nlohmann::json::parse(run.out, nullptr, false);
   if (!summary.is_discarded()) {
@@ -236,7 +239,8 @@ TEST(DisturbedTrial, LosesNothingOnTheDiskWhenThePowerFails) {
         EXPECT_TRUE(disk->CutPower());
         kill(process, SIGKILL);
       };
-      (void)test_support::RunProgram(ELBOWROOM_PROGRAM, trial.words(folder / "files", session), options);
+      (void)test_support::RunProgram(test_support::ProgramFile(), trial.words(folder / "files", session),
+                                     options);
     }
     const auto disk = DiskMount::Ext4(folder / "image", folder / "disk");
     ASSERT_TRUE(disk.has_value());

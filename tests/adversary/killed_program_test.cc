@@ -15,6 +15,7 @@
 #include "sessions/session_reader.h"
 #include "tests/adversary/recorded_session.h"
 #include "tests/adversary/sample_trial_files.h"
+#include "tests/support/places.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
 
@@ -69,7 +70,7 @@ ProgramRun RunAndKill(const Victim& victim, const fs::path& session, int signal,
     std::this_thread::sleep_for(later);
     kill(process, signal);
   };
-  return test_support::RunProgram(ELBOWROOM_PROGRAM, victim.words(session), options);
+  return test_support::RunProgram(test_support::ProgramFile(), victim.words(session), options);
 }
 
 TEST(KilledProgram, LeavesEveryFrameThatWasOnTheDisk) {
@@ -108,8 +109,8 @@ TEST_P(EndedWindow, EndsItsTrialInOrder) {
     frames_before = WaitForFrames(session, 20, process);
     kill(process, GetParam());
   };
-  const ProgramRun run =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {"demo", "--out", folder.path().string()}, options);
+  const ProgramRun run = test_support::RunProgram(test_support::ProgramFile(),
+                                                  {"demo", "--out", folder.path().string()}, options);
   EXPECT_EQ(run.exit_status, 0) << run.err;
   ExpectSound(session, frames_before);
   EXPECT_EQ(sessions::SessionReader(session).status(), sessions::SessionStatus::kComplete);

@@ -20,6 +20,7 @@
 #include "tests/adversary/picture_bombs.h"
 #include "tests/fuzz/mutation.h"
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
@@ -179,7 +180,7 @@ class Bombs : public ::testing::Test {
         recon::testing::PlainRig({{(folder_ / frames).string(), (folder_ / "background.png").string(), ""}});
     recon::WriteRigFile(rig, folder_ / "rig.yml");
     return test_support::RunProgram(
-        ELBOWROOM_PROGRAM,
+        test_support::ProgramFile(),
         {"segment", (folder_ / "rig.yml").string(), "--frame", "0", "--out", (folder_ / "masks").string()},
         {.environment = {}, .timeout_s = 60.0});
   }

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "sessions/session_reader.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::adversary {
@@ -39,8 +40,9 @@ std::int64_t WaitForFrames(const fs::path& session, std::int64_t frames, int pro
 
 void ExpectSound(const fs::path& session, std::int64_t frames) {
   const test_support::TemporaryFolder folder;
-  const test_support::ProgramRun report = test_support::RunProgram(
-      ELBOWROOM_PROGRAM, {"report", session.string(), "--out", folder.path().string()}, AsInATest());
+  const test_support::ProgramRun report =
+      test_support::RunProgram(test_support::ProgramFile(),
+                               {"report", session.string(), "--out", folder.path().string()}, AsInATest());
   EXPECT_EQ(report.exit_status, 0) << report.err;
   {
     const sessions::SessionReader reader(session);

@@ -20,6 +20,7 @@
 #include "tests/adversary/session_damage.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
@@ -55,7 +56,7 @@ std::vector<fs::path> MakeSessions(const TemporaryFolder& folder) {
   WriteTrial(folder / "trial.db", plan);
   plan.is_finished = false;
   WriteTrial(folder / "cut_off.db", plan);
-  const fs::path stored = fs::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored";
+  const fs::path stored = test_support::SourceFolder() / "tests/sessions/stored";
   fs::copy_file(stored / "session_schema_3.db", folder / "older.db");
   return {folder / "sample.db", folder / "trial.db", folder / "cut_off.db", folder / "older.db"};
 }
@@ -119,7 +120,7 @@ void ReadByProgram(const fs::path& path, std::span<const Command> commands, cons
   for (const Command& command : commands) {
     test_support::ProgramRun run;
     try {
-      run = test_support::RunProgram(ELBOWROOM_PROGRAM, command,
+      run = test_support::RunProgram(test_support::ProgramFile(), command,
                                      {.environment = {{"LIBGL_ALWAYS_SOFTWARE", "1"}},
                                       .timeout_s = 3 * kLongest_s * test_support::kSlowdown});
     } catch (const std::exception& hang) {
@@ -190,8 +191,9 @@ TEST(DamagedSession, KnownReproducersAreRefusedInOneLine) {
 TEST(DamagedSession, APartThatNoPictureCanShowEndsInOneLine) {
   const TemporaryFolder folder;
   WriteSampleSession(folder / "far.db", 12);
-  const test_support::ProgramRun run = test_support::RunProgram(
-      ELBOWROOM_PROGRAM, {"report", (folder / "far.db").string(), "--out", (folder / "out").string()});
+  const test_support::ProgramRun run =
+      test_support::RunProgram(test_support::ProgramFile(),
+                               {"report", (folder / "far.db").string(), "--out", (folder / "out").string()});
   EXPECT_EQ(run.exit_status, 1);
   ExpectOneLine(run.err, "a part at 5e300 mm");
   EXPECT_NE(run.err.find("part 'payload B': it is nowhere near a trial"), std::string::npos) << run.err;
@@ -200,7 +202,7 @@ TEST(DamagedSession, APartThatNoPictureCanShowEndsInOneLine) {
 // What a user of the sqlite3 shell adds is no damage.
 TEST(DamagedSession, TablesViewsAndIndicesOfOnesOwnMayBeThere) {
   const TemporaryFolder folder;
-  const fs::path stored = fs::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored";
+  const fs::path stored = test_support::SourceFolder() / "tests/sessions/stored";
   WriteSampleSession(folder / "newest.db", 6);
   for (const fs::path& session :
        {folder / "newest.db", stored / "session_schema_1.db", stored / "session_schema_4.db"}) {

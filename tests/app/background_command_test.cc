@@ -20,6 +20,7 @@
 #include "recon/synthetic/synthetic_rig.h"
 #include "tests/recon/capture/own_network.h"
 #include "tests/recon/capture/served_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -69,7 +70,7 @@ ProgramRun TakeBackground(const std::filesystem::path& rig, const std::filesyste
                           const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"background", rig.string(), "--out", out.string(), "--json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+  return test_support::RunProgram(test_support::ProgramFile(), arguments);
 }
 
 // Nothing is left beside the rig file: neither the folder nor a part of it.
@@ -133,7 +134,7 @@ TEST(BackgroundCommand, GivesCamerasCheckTheLightToCompareWith) {
     rig = WriteLiveRig(served, folder.path());
     ASSERT_EQ(TakeBackground(rig, out, {"--seconds", "2"}).exit_status, 0);
     const ProgramRun without = test_support::RunProgram(
-        ELBOWROOM_PROGRAM, {"cameras", "check", rig.string(), "--seconds", "1", "--json"});
+        test_support::ProgramFile(), {"cameras", "check", rig.string(), "--seconds", "1", "--json"});
     ASSERT_EQ(without.exit_status, 0) << without.err;
     EXPECT_TRUE(nlohmann::json::parse(without.out)["cameras"][0]["light"].is_null());
   }
@@ -146,8 +147,9 @@ TEST(BackgroundCommand, GivesCamerasCheckTheLightToCompareWith) {
     }
   }
   const ServedRig served(darker, kRateHz);
-  const ProgramRun run = test_support::RunProgram(
-      ELBOWROOM_PROGRAM, {"cameras", "check", (out / "RIG.yml").string(), "--seconds", "1", "--json"});
+  const ProgramRun run =
+      test_support::RunProgram(test_support::ProgramFile(),
+                               {"cameras", "check", (out / "RIG.yml").string(), "--seconds", "1", "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const nlohmann::json json = nlohmann::json::parse(run.out);
   EXPECT_FALSE(json["well"].get<bool>());

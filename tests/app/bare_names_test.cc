@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -55,7 +56,7 @@ class InItsFolder : public testing::Test {
   }
   [[nodiscard]] ProgramRun Run(const std::vector<std::string>& words) const {
     return test_support::RunProgram(
-        ELBOWROOM_PROGRAM, words,
+        test_support::ProgramFile(), words,
         {.working_folder = folder_.path(), .environment = {{"ELBOWROOM_CACHE", "cache"}}});
   }
   void ExpectSuccess(const std::vector<std::string>& words, const std::vector<fs::path>& made) const {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 
 namespace elbowroom {
@@ -12,7 +13,8 @@ using test_support::ProgramRun;
 using test_support::RunProgram;
 
 TEST(CliBench, TimesWhatItIsAskedFor) {
-  const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, {"--json", "--threads", "1", "bench", "segmentation"});
+  const ProgramRun run =
+      RunProgram(test_support::ProgramFile(), {"--json", "--threads", "1", "bench", "segmentation"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const nlohmann::json result = nlohmann::json::parse(run.out);
   EXPECT_EQ(result.at("threads"), 1);
@@ -25,14 +27,14 @@ TEST(CliBench, TimesWhatItIsAskedFor) {
 }
 
 TEST(CliBench, SaysWhatThereIsForAnUnknownName) {
-  const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, {"bench", "levitation"});
+  const ProgramRun run = RunProgram(test_support::ProgramFile(), {"bench", "levitation"});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err, "elbowroom: there is no benchmark 'levitation'; there are: view, segmentation, hull\n");
 }
 
 TEST(CliBench, SelfTestFindsThatOpenGlComputesWhatTheProcessorDoes) {
-  const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, {"--json", "bench", "selftest"});
+  const ProgramRun run = RunProgram(test_support::ProgramFile(), {"--json", "bench", "selftest"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const nlohmann::json result = nlohmann::json::parse(run.out);
   EXPECT_EQ(result.at("passed"), true);
@@ -45,7 +47,7 @@ TEST(CliBench, SelfTestFindsThatOpenGlComputesWhatTheProcessorDoes) {
 }
 
 TEST(CliBench, HelpListsTheBenchmarks) {
-  const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, {"bench", "--help"});
+  const ProgramRun run = RunProgram(test_support::ProgramFile(), {"bench", "--help"});
   EXPECT_EQ(run.exit_status, 0);
   for (const char* name : {"view", "segmentation", "hull", "selftest"})
     EXPECT_NE(run.out.find(std::string("\n  ") + name + " "), std::string::npos) << run.out;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -23,7 +24,7 @@ class BoardCommand : public testing::Test {
   [[nodiscard]] ProgramRun Run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), "board");
     arguments.insert(arguments.end(), {"--out", Out()});
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
   [[nodiscard]] std::string Out() const { return (folder_ / "board.pdf").string(); }
 
@@ -95,7 +96,7 @@ TEST_F(BoardCommand, NeedsAPlaceForAPdf) {
        {(folder_ / "board.png").string(), (folder_ / "nowhere" / "board.pdf").string()}) {
     std::vector<std::string> arguments = board;
     arguments.insert(arguments.end(), {"--out", out});
-    const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    const ProgramRun run = test_support::RunProgram(test_support::ProgramFile(), arguments);
     EXPECT_EQ(run.exit_status, 1) << out;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   }

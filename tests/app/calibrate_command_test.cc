@@ -15,6 +15,7 @@
 #include "recon/rig_files/rig_file.h"
 #include "tests/recon/boards/board_picture.h"
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -122,7 +123,7 @@ ProgramRun Calibrate(const std::string& text, const std::vector<std::string>& mo
   std::vector<std::string> arguments{"calibrate", (folder / "CALIB.toml").string(), "--out",
                                      (folder / "rig.yml").string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+  return test_support::RunProgram(test_support::ProgramFile(), arguments);
 }
 
 bool HasRig() { return std::filesystem::exists(Footage() / "rig.yml"); }
@@ -350,7 +351,7 @@ ProgramRun ImportRig(const std::string& rig, const std::vector<std::string>& mor
   std::vector<std::string> arguments{"rig", "import", (folder / "calibration.toml").string(), "--out",
                                      (folder / "rig.yml").string()};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+  return test_support::RunProgram(test_support::ProgramFile(), arguments);
 }
 
 TEST(RigImportCommand, TheBoardTellsPosesUnitAndWorld) {

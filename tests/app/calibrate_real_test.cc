@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "recon/rig_files/rig_file.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -13,7 +14,7 @@
 namespace elbowroom {
 namespace {
 
-const std::filesystem::path kData = ELBOWROOM_SHARED_DATA_DIR;
+const std::filesystem::path kData = test_support::SharedDataFolder();
 
 class RealPictures : public testing::Test {
  protected:
@@ -23,9 +24,10 @@ class RealPictures : public testing::Test {
   }
 
   [[nodiscard]] nlohmann::json Calibrate(const std::filesystem::path& calibration) const {
-    const auto run = test_support::RunProgram(
-        ELBOWROOM_PROGRAM, {"calibrate", calibration.string(), "--out", (folder_ / "rig.yml").string(),
-                            "--report", (folder_ / "report").string(), "--json"});
+    const auto run =
+        test_support::RunProgram(test_support::ProgramFile(),
+                                 {"calibrate", calibration.string(), "--out", (folder_ / "rig.yml").string(),
+                                  "--report", (folder_ / "report").string(), "--json"});
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return run.exit_status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
   }
@@ -90,10 +92,11 @@ TEST_F(RealPictures, OfABoardOnTheFloorJoinFourCameras) {
 
 // Caliscope's own result of the webcams' session; its cameras have no offsets, so moving boards are off.
 TEST_F(RealPictures, AnImportedRigOfCaliscopeIsAsTheBoardHasIt) {
-  const auto run = test_support::RunProgram(
-      ELBOWROOM_PROGRAM, {"rig", "import", (kData / "calibration/webcams/camera_array.toml").string(),
-                          "--out", (folder_ / "rig.yml").string(), "--check",
-                          (kData / "calibration/webcams/CALIB_known.toml").string(), "--json"});
+  const auto run =
+      test_support::RunProgram(test_support::ProgramFile(),
+                               {"rig", "import", (kData / "calibration/webcams/camera_array.toml").string(),
+                                "--out", (folder_ / "rig.yml").string(), "--check",
+                                (kData / "calibration/webcams/CALIB_known.toml").string(), "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["format"], "caliscope");
@@ -128,10 +131,10 @@ TEST_F(RealPictures, MatricesOfFourCamerasAreTheRigThatTheyAreOf) {
       folder_ / "CALIB.toml",
       "[board]\ntype = \"chessboard\"\ncolumns = 8\nrows = 6\nsquare_mm = 115.0\n" + cameras +
           "[world]\nboard_frame = 0\nworkspace_mm = [-1500, -3000, 0, 3500, 2500, 2200]\n");
-  const auto run =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {"rig", "import", (folder_ / "matrices.txt").string(),
-                                                   "--out", (folder_ / "rig.yml").string(), "--check",
-                                                   (folder_ / "CALIB.toml").string(), "--json"});
+  const auto run = test_support::RunProgram(
+      test_support::ProgramFile(),
+      {"rig", "import", (folder_ / "matrices.txt").string(), "--out", (folder_ / "rig.yml").string(),
+       "--check", (folder_ / "CALIB.toml").string(), "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["axes"], "opencv");

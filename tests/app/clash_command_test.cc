@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -69,7 +70,7 @@ class ClashCommand : public ::testing::Test {
 
   [[nodiscard]] ProgramRun Run(std::vector<std::string> more) const {
     more.insert(more.begin(), {"clash", (folder_ / "layout.toml").string()});
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, more);
+    return test_support::RunProgram(test_support::ProgramFile(), more);
   }
   [[nodiscard]] nlohmann::json Json(std::vector<std::string> more = {}) const {
     more.emplace_back("--json");

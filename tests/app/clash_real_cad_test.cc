@@ -16,6 +16,7 @@
 #include "cad_import/layout/layout_file.h"
 #include "cad_import/mesh_file.h"
 #include "tests/oracles/mesh_gap.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
@@ -26,7 +27,7 @@ namespace {
 
 using core::LengthUnit;
 
-const std::filesystem::path kCad = std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "cad";
+const std::filesystem::path kCad = test_support::SharedDataFolder() / "cad";
 
 // What both sides make of the same doubles differs by some 1e-12 mm; this is the accuracy that is promised.
 constexpr double kToleranceMm = 1e-6;
@@ -158,7 +159,8 @@ TEST(ClashOnRealCad, FiftyPartsAreJudgedAsByBruteForce) {
   test_support::WriteText(file, LayoutText());
   const core::Layout layout = cad_import::ImportLayoutFile(file).layout;
   const test_support::ProgramRun run = test_support::RunProgram(
-      ELBOWROOM_PROGRAM, {"clash", file.string(), "--required", fmt::format("{}", kRequiredMm), "--json"});
+      test_support::ProgramFile(),
+      {"clash", file.string(), "--required", fmt::format("{}", kRequiredMm), "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const nlohmann::json json = nlohmann::json::parse(run.out);
   const nlohmann::json& results = json["results"];

@@ -10,6 +10,7 @@
 #include "core/triangle_mesh.h"
 #include "recon/rig_files/rig_file.h"
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -23,7 +24,7 @@ using test_support::TemporaryFolder;
 using test_support::WriteText;
 
 ProgramRun Elbowroom(const std::vector<std::string>& arguments) {
-  return RunProgram(ELBOWROOM_PROGRAM, arguments);
+  return RunProgram(test_support::ProgramFile(), arguments);
 }
 
 // Exit status 1, nothing on stdout, one line on stderr that says all of `words`.
@@ -238,7 +239,7 @@ TEST_F(CliOnBallRig, AViewFromWithinTheHullSaysSo) {
 }
 
 TEST(CliOnSharedData, ViewSeesTheBunny) {
-  const std::filesystem::path bunny = std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "bunny6";
+  const std::filesystem::path bunny = test_support::SharedDataFolder() / "bunny6";
   if (!std::filesystem::exists(bunny))
     GTEST_SKIP() << bunny << " isn't there: no view of the bunny was tested";
   const TemporaryFolder folder;
@@ -518,7 +519,7 @@ TEST_F(CliOnBallRig, ATrialWithABadMaskLeavesNoSession) {
 
 TEST(Cli, TheWindowNeedsADisplay) {
   const ProgramRun run =
-      RunProgram(ELBOWROOM_PROGRAM, {},
+      RunProgram(test_support::ProgramFile(), {},
                  {.environment = {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"QT_QPA_PLATFORM", ""}}});
   ExpectOneLine(run, {"display"});
 }

@@ -14,6 +14,7 @@
 #include "recon/calibration/lens_projection.h"
 #include "recon/rig_files/rig_file.h"
 #include "recon/synthetic/rig_presets.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -62,7 +63,7 @@ class CoverageCommand : public testing::Test {
     std::vector<std::string> arguments{"coverage", (folder_ / "rig.yml").string(), "--out",
                                        (folder_ / "out").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
 
   [[nodiscard]] nlohmann::json Json(std::vector<std::string> more = {}) const {
@@ -272,7 +273,7 @@ TEST_F(CoverageCommand, OneCameraIsToldToGetASecond) {
 TEST_F(CoverageCommand, BadInputIsOneLineAndLeavesNoFiles) {
   Write(recon::FourCameraRig());
   const auto expect = [&](const std::vector<std::string>& arguments, int status, const std::string& part) {
-    const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    const ProgramRun run = test_support::RunProgram(test_support::ProgramFile(), arguments);
     EXPECT_EQ(run.exit_status, status) << part;
     EXPECT_NE(run.err.find(part), std::string::npos) << run.err;
     EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
@@ -292,14 +293,14 @@ TEST_F(CoverageCommand, BadInputIsOneLineAndLeavesNoFiles) {
   EXPECT_EQ(test_support::ReadText(folder_ / "file"), "not a folder");
 }
 
-const fs::path kSharedData = ELBOWROOM_SHARED_DATA_DIR;
+const fs::path kSharedData = test_support::SharedDataFolder();
 
 TEST_F(CoverageCommand, TakesEveryRigOfTheRealData) {
   if (!fs::exists(kSharedData)) GTEST_SKIP() << "NOT TESTED: there is no real data at " << kSharedData;
   for (const char* set : {"four_cameras", "bunny6", "bunny36", "teapot", "elephant"}) {
     const ProgramRun run = test_support::RunProgram(
-        ELBOWROOM_PROGRAM, {"coverage", (kSharedData / set / "rig.yml").string(), "--out",
-                            (folder_ / set).string(), "--no-next", "--json"});
+        test_support::ProgramFile(), {"coverage", (kSharedData / set / "rig.yml").string(), "--out",
+                                      (folder_ / set).string(), "--no-next", "--json"});
     ASSERT_EQ(run.exit_status, 0) << set << ": " << run.err;
     const auto json = nlohmann::json::parse(run.out);
     ExpectSpreads(json);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sessions/session_reader.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -15,7 +16,7 @@ TEST(Demo, TouchesPayloadAAt140MmAndNothingAt240) {
   const test_support::TemporaryFolder folder;
   const std::filesystem::path out = folder / "out";
   const test_support::ProgramRun run =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {"demo", "--out", out.string(), "--headless"});
+      test_support::RunProgram(test_support::ProgramFile(), {"demo", "--out", out.string(), "--headless"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   for (const char* file :
        {"session.db", "report.html", "report.pdf", "contacts.csv", "clearance.csv", "view.png"}) {

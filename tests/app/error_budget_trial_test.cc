@@ -9,6 +9,7 @@
 #include "recon/rig_files/rig_file.h"
 #include "sessions/session_reader.h"
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -54,9 +55,9 @@ class ErrorBudgetTrial : public testing::Test {
     test_support::WriteText(folder_ / "trial.toml",
                             "rig = \"rig/rig.yml\"\nlayout = \"layout.toml\"\nrequired_clearance_mm = " +
                                 std::to_string(required_mm) + "\n" + more);
-    return test_support::RunProgram(
-        ELBOWROOM_PROGRAM, {"trial", "run", (folder_ / "trial.toml").string(), "--session", session_.string(),
-                            "--headless", "--json"});
+    return test_support::RunProgram(test_support::ProgramFile(),
+                                    {"trial", "run", (folder_ / "trial.toml").string(), "--session",
+                                     session_.string(), "--headless", "--json"});
   }
 
   [[nodiscard]] core::PartContact Recorded() const {
@@ -65,8 +66,8 @@ class ErrorBudgetTrial : public testing::Test {
 
   [[nodiscard]] std::string Report() const {
     const fs::path out = folder_ / "report";
-    const test_support::ProgramRun run =
-        test_support::RunProgram(ELBOWROOM_PROGRAM, {"report", session_.string(), "--out", out.string()});
+    const test_support::ProgramRun run = test_support::RunProgram(
+        test_support::ProgramFile(), {"report", session_.string(), "--out", out.string()});
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return test_support::ReadText(out / "report.html");
   }
@@ -131,9 +132,9 @@ TEST_F(ErrorBudgetTrial, TheSweepOfASessionAllowsForTheSame) {
       "\"x\"\nmin_mm = 0.0\nmax_mm = 500.0\ninitial_mm = 365.0\n");
   ASSERT_EQ(Run("").exit_status, 0);
   const core::PartContact recorded = Recorded();
-  const test_support::ProgramRun sweep =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {"sweep", session_.string(), "--spacing", "gap=355:375:10",
-                                                   "--out", (folder_ / "sweep").string(), "--json"});
+  const test_support::ProgramRun sweep = test_support::RunProgram(
+      test_support::ProgramFile(), {"sweep", session_.string(), "--spacing", "gap=355:375:10", "--out",
+                                    (folder_ / "sweep").string(), "--json"});
   ASSERT_EQ(sweep.exit_status, 0) << sweep.err;
   EXPECT_EQ(recorded.verdict, core::Verdict::kUndecided);
   const std::string csv = test_support::ReadText(folder_ / "sweep" / "sweep.csv");
@@ -181,7 +182,7 @@ TEST_F(ErrorBudgetTrial, TheClearanceCommandSaysTheSame) {
                                           "10",
                                           "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const test_support::ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    const test_support::ProgramRun run = test_support::RunProgram(test_support::ProgramFile(), arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return nlohmann::json::parse(run.out);
   };

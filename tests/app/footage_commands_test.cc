@@ -18,6 +18,7 @@
 #include "recon/segmentation/frame_segmenter.h"
 #include "review/contacts.h"
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -39,7 +40,7 @@ class FootageCommands : public testing::Test {
   [[nodiscard]] nlohmann::json Run(const std::string& command, const std::vector<std::string>& more) const {
     std::vector<std::string> arguments = {command, file_.string(), "--frame", "0", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const test_support::ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    const test_support::ProgramRun run = test_support::RunProgram(test_support::ProgramFile(), arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return run.exit_status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
   }

@@ -10,6 +10,7 @@
 #include "sessions/session_reader.h"
 #include "tests/app/mask_rig.h"
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -47,7 +48,7 @@ class FootageTrial : public testing::Test {
         "trial",      "run",   (folder_ / "trial.toml").string(), "--session", session_.string(),
         "--headless", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
 
   [[nodiscard]] std::string LastNote() const {

@@ -13,6 +13,7 @@
 #include "recon/rig_files/rig_file.h"
 #include "recon/synthetic/rig_presets.h"
 #include "tests/recon/gauge/rod_scene.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -63,7 +64,7 @@ const std::filesystem::path& TrueRig() {
 
 ProgramRun Gauge(const std::filesystem::path& rig, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"gauge", rig.string()});
-  return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+  return test_support::RunProgram(test_support::ProgramFile(), arguments);
 }
 
 nlohmann::json JsonOf(const ProgramRun& run) {

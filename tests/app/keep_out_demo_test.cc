@@ -19,6 +19,7 @@
 #include "tests/oracles/mesh_sides.h"
 #include "tests/oracles/picture_labels.h"
 #include "tests/recon/scenes/random_scene.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -78,14 +79,14 @@ class KeepOutDemo : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<test_support::TemporaryFolder>();
-    const auto run = test_support::RunProgram(ELBOWROOM_PROGRAM,
+    const auto run = test_support::RunProgram(test_support::ProgramFile(),
                                               {"demo", "--out", folder_->path().string(), "--headless"});
     ASSERT_EQ(run.exit_status, 0) << run.err;
     for (const double edge_mm : kEdgesMm) {
-      const auto keepout =
-          test_support::RunProgram(ELBOWROOM_PROGRAM, {"keepout", (*folder_ / "session.db").string(),
-                                                       "--edge", std::to_string(edge_mm), "--out",
-                                                       (*folder_ / "keep_out.ply").string(), "--json"});
+      const auto keepout = test_support::RunProgram(
+          test_support::ProgramFile(),
+          {"keepout", (*folder_ / "session.db").string(), "--edge", std::to_string(edge_mm), "--out",
+           (*folder_ / "keep_out.ply").string(), "--json"});
       ASSERT_EQ(keepout.exit_status, 0) << keepout.err;
       reports_.push_back(nlohmann::json::parse(keepout.out));
       meshes_.push_back(*cad_import::ImportMeshFile(*folder_ / "keep_out.ply",

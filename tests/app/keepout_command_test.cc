@@ -21,6 +21,7 @@
 #include "sessions/session_writer.h"
 #include "tests/oracles/mesh_sides.h"
 #include "tests/recon/scenes/random_scene.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -103,7 +104,7 @@ class KeepoutCommand : public testing::Test {
     arguments.insert(arguments.end(), {"--out", (folder_ / out).string(), "--json"});
     if (std::ranges::find(more, "--edge") == more.end()) arguments.insert(arguments.end(), {"--edge", "8"});
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments, options);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments, options);
   }
   nlohmann::json JsonOf(const ProgramRun& run) const {
     EXPECT_EQ(run.exit_status, 0) << run.err;

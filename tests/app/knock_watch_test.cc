@@ -16,6 +16,7 @@
 #include "tests/app/hand_footage.h"
 #include "tests/app/mask_rig.h"
 #include "tests/recon/consistency/hand_stage.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -91,8 +92,8 @@ class KnockedTrial : public ::testing::Test {
                             "position_mm = [0, 0, 600]\n");
     test_support::WriteText(folder_ / "trial.toml", "rig = \"rig/rig.yml\"\nlayout = \"layout.toml\"\n");
     const test_support::ProgramRun run = test_support::RunProgram(
-        ELBOWROOM_PROGRAM, {"trial", "run", (folder_ / "trial.toml").string(), "--session",
-                            Session().string(), "--headless", "--json"});
+        test_support::ProgramFile(), {"trial", "run", (folder_ / "trial.toml").string(), "--session",
+                                      Session().string(), "--headless", "--json"});
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return run.exit_status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
   }

@@ -11,6 +11,7 @@
 #include "core/layout.h"
 #include "sessions/session_reader.h"
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -36,7 +37,7 @@ class LayoutCommand : public ::testing::Test {
 
   [[nodiscard]] ProgramRun Run(std::vector<std::string> words) const {
     words.insert(words.begin(), "layout");
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, words);
+    return test_support::RunProgram(test_support::ProgramFile(), words);
   }
   nlohmann::json Json(std::vector<std::string> words) const {
     words.emplace_back("--json");
@@ -145,7 +146,8 @@ TEST_F(LayoutCommand, GroupsMoveTogetherAndRulesAreKept) {
   ASSERT_EQ(json["pairs"].size(), 1U);
   EXPECT_EQ(json["pairs"][0]["required_clearance_mm"], 200.0);
   EXPECT_EQ(json["pairs"][0]["authorised_contact"], true);
-  const ProgramRun clash = test_support::RunProgram(ELBOWROOM_PROGRAM, {"clash", layout_, "--json"});
+  const ProgramRun clash =
+      test_support::RunProgram(test_support::ProgramFile(), {"clash", layout_, "--json"});
   ASSERT_EQ(clash.exit_status, 0) << clash.err;
   const auto judged = nlohmann::json::parse(clash.out)["results"];
   EXPECT_EQ(std::ranges::count_if(judged, [](const auto& pair) { return pair["required_mm"] == 200.0; }), 2);
@@ -228,22 +230,24 @@ TEST_F(LayoutCommand, AMoveSaysWhatAGapSets) {
 TEST_F(LayoutCommand, AnImportDoesNotWriteOverItsInput) {
   const std::string file = Cad("inch.stl"), before = ReadText(file);
   const ProgramRun run =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {"import", file, "--unit", "in", "--out", file});
+      test_support::RunProgram(test_support::ProgramFile(), {"import", file, "--unit", "in", "--out", file});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find("is the file that is read"), std::string::npos) << run.err;
   EXPECT_EQ(ReadText(file), before);
 }
 
 TEST_F(LayoutCommand, AnImportListsTheNodesThatALayoutTakes) {
-  const std::string assembly = ELBOWROOM_SHARED_DATA_DIR "/cad/step/ap203_ap214/as1-oc-214.stp";
-  const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, {"import", assembly, "--json"});
+  const std::string assembly =
+      (test_support::SharedDataFolder() / "cad/step/ap203_ap214/as1-oc-214.stp").string();
+  const ProgramRun run =
+      test_support::RunProgram(test_support::ProgramFile(), {"import", assembly, "--json"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const nlohmann::json nodes = nlohmann::json::parse(run.out)["nodes"];
   ASSERT_EQ(nodes.size(), 28U);
   EXPECT_NE(std::ranges::find(nodes, "as1/plate_1"), nodes.end());
   Json({"new", layout_});
   Json({"add", layout_, assembly, "--node", "as1/plate_1"});
-  const ProgramRun text = test_support::RunProgram(ELBOWROOM_PROGRAM, {"import", assembly});
+  const ProgramRun text = test_support::RunProgram(test_support::ProgramFile(), {"import", assembly});
   EXPECT_NE(text.out.find("\n  as1/plate_1\n"), std::string::npos) << text.out;
 }
 
@@ -251,7 +255,8 @@ TEST_F(LayoutCommand, AFileThatIsTooLargeIsRefusedUnread) {
   const std::string file = (folder_ / "sparse.stl").string();
   test_support::WriteText(file, "");
   std::filesystem::resize_file(file, std::uintmax_t{200} << 30U);
-  const ProgramRun run = test_support::RunProgram(ELBOWROOM_PROGRAM, {"import", file, "--unit", "mm"});
+  const ProgramRun run =
+      test_support::RunProgram(test_support::ProgramFile(), {"import", file, "--unit", "mm"});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find("larger than 1 GiB"), std::string::npos) << run.err;
 }
@@ -265,7 +270,7 @@ TEST_F(LayoutCommand, ATrialRecordsGroupsAndASweepMovesThemAsOne) {
   Json({"space", layout_, "gap", "--moving", "upper"});
   const std::string recorded = (folder_ / "s.db").string();
   const ProgramRun run = test_support::RunProgram(
-      ELBOWROOM_PROGRAM,
+      test_support::ProgramFile(),
       {"trial", "run", (folder_ / "bench/trial.toml").string(), "--session", recorded, "--headless"});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const core::Layout layout = sessions::SessionReader(recorded).header().layout;
@@ -273,7 +278,7 @@ TEST_F(LayoutCommand, ATrialRecordsGroupsAndASweepMovesThemAsOne) {
   EXPECT_EQ(layout.groups[0].parts, std::vector<std::string>({"metre", "lid"}));
   EXPECT_EQ(layout.spacings[0].moving, "upper");
   const ProgramRun sweep = test_support::RunProgram(
-      ELBOWROOM_PROGRAM,
+      test_support::ProgramFile(),
       {"sweep", recorded, "--spacing", "gap=140:240:50", "--out", (folder_ / "sweep").string(), "--json"});
   ASSERT_EQ(sweep.exit_status, 0) << sweep.err;
   EXPECT_EQ(nlohmann::json::parse(sweep.out).at("moved"), nlohmann::json({"metre", "lid"})) << sweep.out;

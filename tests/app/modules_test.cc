@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -18,13 +19,13 @@ using test_support::RunProgram;
 
 class CopiedProgram : public testing::Test {
  protected:
-  void SetUp() override { fs::copy_file(ELBOWROOM_PROGRAM, program_); }
+  void SetUp() override { fs::copy_file(test_support::ProgramFile(), program_); }
 
   // The files whose names begin so. Returns how many there are.
   int CopyThose(const std::string& beginning) const {
     int modules = 0;
     for (const fs::directory_entry& entry :
-         fs::directory_iterator(fs::path(ELBOWROOM_PROGRAM).parent_path())) {
+         fs::directory_iterator(test_support::ProgramFile().parent_path())) {
       if (!entry.path().filename().string().starts_with(beginning)) continue;
       fs::copy_file(entry.path(), folder_ / entry.path().filename());
       ++modules;

@@ -14,6 +14,7 @@
 #include "tests/app/hand_footage.h"
 #include "tests/recon/consistency/blinking_light.h"
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -30,7 +31,7 @@ using ::testing::IsEmpty;
 ProgramRun Offsets(const std::filesystem::path& rig, const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments = {"cameras", "offsets", rig.string(), "--json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+  return test_support::RunProgram(test_support::ProgramFile(), arguments);
 }
 
 // Offsets against the first camera's, each within `most_s` and five sigmas of the truth.

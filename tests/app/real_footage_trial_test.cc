@@ -8,6 +8,7 @@
 #include "recon/rig_files/rig_file.h"
 #include "sessions/session_reader.h"
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
@@ -36,8 +37,7 @@ position_mm = [2600, -1800, 700]
 )";
 
 TEST(RealFootageTrial, OneLongTouchWhereThePersonIsAndNoneElsewhere) {
-  const std::filesystem::path rig =
-      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "four_cameras" / "rig.yml";
+  const std::filesystem::path rig = test_support::SharedDataFolder() / "four_cameras" / "rig.yml";
   if (!std::filesystem::exists(rig)) GTEST_SKIP() << "NOT TESTED: no footage at " << rig;
   const test_support::TemporaryFolder folder;
   test_support::WriteBoxStl(folder / "box.stl", 300.0);
@@ -45,10 +45,10 @@ TEST(RealFootageTrial, OneLongTouchWhereThePersonIsAndNoneElsewhere) {
   test_support::WriteText(folder / "trial.toml", "rig = \"" + std::filesystem::canonical(rig).string() +
                                                      "\"\nlayout = \"layout.toml\"\n");
   const int frames = std::min(kFramesInAll, kFramesHere * test_support::SoakScale());
-  const test_support::ProgramRun run =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {"trial", "run", (folder / "trial.toml").string(),
-                                                   "--session", (folder / "s.db").string(), "--headless",
-                                                   "--json", "--frames", "0:" + std::to_string(frames)});
+  const test_support::ProgramRun run = test_support::RunProgram(
+      test_support::ProgramFile(),
+      {"trial", "run", (folder / "trial.toml").string(), "--session", (folder / "s.db").string(),
+       "--headless", "--json", "--frames", "0:" + std::to_string(frames)});
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_EQ(json["frames"], frames);

@@ -8,6 +8,7 @@
 #include "recon/footage/recorded_rig.h"
 #include "tests/app/live_demo.h"
 #include "tests/recon/capture/served_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -26,7 +27,7 @@ TEST(RecordCommand, RecordsAndSaysWhat) {
   const std::vector<std::string> arguments{
       "cameras", "record", (folder / "RIG.yml").string(), "--out", (folder / "out").string(), "--seconds",
       "1.5",     "--json"};
-  const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, arguments);
+  const ProgramRun run = RunProgram(test_support::ProgramFile(), arguments);
   ASSERT_EQ(run.exit_status, 0) << run.err;
   const auto json = nlohmann::json::parse(run.out);
   EXPECT_GE(json["seconds"].get<double>(), 1.5);
@@ -43,7 +44,7 @@ TEST(RecordCommand, RecordsAndSaysWhat) {
   recon::RecordedRig rig(recon::ReadRigFile(json["rig"].get<std::string>()));
   EXPECT_GT(rig.frame_count().value(), 0);
 
-  const ProgramRun again = RunProgram(ELBOWROOM_PROGRAM, arguments);
+  const ProgramRun again = RunProgram(test_support::ProgramFile(), arguments);
   EXPECT_EQ(again.exit_status, 1);
   EXPECT_EQ(again.out, "");
   EXPECT_THAT(again.err, HasSubstr("there is something in it already; choose a new folder"));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -19,7 +20,7 @@ using test_support::ProgramRun;
 
 // The program with `words`, as a shell starts it with these redirections or limits around "$@".
 ProgramRun InShell(const std::string& script, std::vector<std::string> words) {
-  words.insert(words.begin(), {"-c", script, "sh", ELBOWROOM_PROGRAM});
+  words.insert(words.begin(), {"-c", script, "sh", test_support::ProgramFile().string()});
   return test_support::RunProgram("/bin/sh", words);
 }
 

@@ -15,6 +15,7 @@
 #include "recon/hull/visual_hull.h"
 #include "recon/rig_files/rig_file.h"
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -51,7 +52,7 @@ class OrthographicView : public testing::Test {
 
   [[nodiscard]] ProgramRun View(const std::string& view, const std::string& method) const {
     return test_support::RunProgram(
-        ELBOWROOM_PROGRAM,
+        test_support::ProgramFile(),
         {"view", rig_.string(), "--frame", "0", "--camera", view, "--method", method, "--depth",
          (folder_ / "o.tiff").string(), "--image", (folder_ / "o.png").string(), "--json"});
   }
@@ -153,7 +154,7 @@ class UndistortionGrid : public testing::Test {
                                  "--camera", camera_.string(), "--depth", (folder_ / "d.tiff").string(),
                                  "--json"};
     all.insert(all.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, all);
+    return test_support::RunProgram(test_support::ProgramFile(), all);
   }
 
   [[nodiscard]] nlohmann::json Sweep(const std::string& method, const std::string& cells) const {

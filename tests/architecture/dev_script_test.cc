@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using test_support::ProgramRun;
 
-const fs::path kSourceRoot = ELBOWROOM_SOURCE_DIR;
+const fs::path kSourceRoot = test_support::SourceFolder();
 
 class DevScript : public testing::Test {
  protected:

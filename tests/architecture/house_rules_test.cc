@@ -11,6 +11,7 @@
 
 #include "tests/architecture/layer_checker.h"
 #include "tests/architecture/layers_file.h"
+#include "tests/support/places.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::architecture {
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using test_support::ReadText;
 
-const fs::path kHouse = ELBOWROOM_SOURCE_DIR;
+const fs::path kHouse = test_support::SourceFolder();
 
 // CONTRIBUTING.md, "Sizes": beyond these a file holds more than one thing.
 constexpr long kLongestSource = 600;

@@ -10,6 +10,7 @@
 #include "tests/architecture/layer_checker.h"
 #include "tests/architecture/layers_file.h"
 #include "tests/architecture/link_checker.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 using test_support::TemporaryFolder;
 using test_support::WriteText;
 
-const fs::path kRoot = ELBOWROOM_SOURCE_DIR;
+const fs::path kRoot = test_support::SourceFolder();
 const fs::path kLayersInTree = "tests/architecture/layers.txt";
 
 std::string Lines(const std::vector<Violation>& violations) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/places.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::architecture {
@@ -24,7 +25,7 @@ TEST(SameBits, AProductIsRoundedBeforeItIsAddedTo) {
 }
 
 TEST(SameBits, EveryFileIsCompiledSo) {
-  const fs::path commands = fs::path(ELBOWROOM_PROGRAM).parent_path() / "compile_commands.json";
+  const fs::path commands = test_support::ProgramFile().parent_path() / "compile_commands.json";
   const nlohmann::json all = nlohmann::json::parse(test_support::ReadText(commands));
   ASSERT_GT(all.size(), 100U);
   for (const auto& one : all) {

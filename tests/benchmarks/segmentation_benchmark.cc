@@ -23,6 +23,7 @@
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "tests/recon/segmentation/boundary_error.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -218,7 +219,7 @@ struct RealScene {
 
 const RealScene* Real() {
   static const std::optional<RealScene> scene = []() -> std::optional<RealScene> {
-    const std::filesystem::path data = std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "four_cameras";
+    const std::filesystem::path data = test_support::SharedDataFolder() / "four_cameras";
     if (!std::filesystem::exists(data / "rig.yml")) return std::nullopt;
     RecordedRig rig(ReadRigFile(data / "rig.yml")), truth(ReadRigFile(data / "hand_masks" / "rig.yml"));
     RealScene made{rig.rig(), rig.ReadBackgrounds({}, {}), rig.Read(0), {}};

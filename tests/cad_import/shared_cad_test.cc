@@ -12,11 +12,12 @@
 #include "cad_import/formats/file_format.h"
 #include "cad_import/mesh_file.h"
 #include "core/error.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::cad_import {
 namespace {
 
-const std::filesystem::path kCad = std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "cad";
+const std::filesystem::path kCad = test_support::SharedDataFolder() / "cad";
 
 #define SKIP_WITHOUT_SHARED_DATA()                                                              \
   if (!std::filesystem::is_directory(kCad)) {                                                   \

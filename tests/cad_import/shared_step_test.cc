@@ -11,11 +11,12 @@
 
 #include "cad_import/cad_file.h"
 #include "core/error.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::cad_import {
 namespace {
 
-const std::filesystem::path kStep = std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "cad/step";
+const std::filesystem::path kStep = test_support::SharedDataFolder() / "cad/step";
 
 struct Expected {
   const char* file;

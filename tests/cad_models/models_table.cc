@@ -21,6 +21,7 @@
 #include "tests/reporting/machine_line.h"
 #include "tests/reporting/markdown_table.h"
 #include "tests/reporting/marked_section.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::cad_models {
 namespace {
@@ -54,7 +55,7 @@ Collections FindCollections() {
       found.missing.push_back(name);
     }
   };
-  add("shared/data/cad", FilesOfFolder(fs::path(ELBOWROOM_SHARED_DATA_DIR) / "cad", "cad"));
+  add("shared/data/cad", FilesOfFolder(test_support::SharedDataFolder() / "cad", "cad"));
   for (const char* package : {"assimp-testmodels", "occt-misc"}) add(package, FilesOfPackage(package));
   return found;
 }

@@ -10,6 +10,7 @@
 #include "recon/rig_files/rig_file.h"
 #include "sessions/session_reader.h"
 #include "tests/examples/first_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -21,7 +22,7 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const fs::path kSource = fs::path(ELBOWROOM_SOURCE_DIR) / "docs/examples/first_rig";
+const fs::path kSource = test_support::SourceFolder() / "docs/examples/first_rig";
 
 // A copy, so that nothing is written beside the documents.
 class FirstRig : public testing::Test {
@@ -30,7 +31,7 @@ class FirstRig : public testing::Test {
 
   [[nodiscard]] nlohmann::json Run(const std::vector<std::string>& arguments) const {
     const test_support::ProgramRun run =
-        test_support::RunProgram(ELBOWROOM_PROGRAM, arguments, {.working_folder = folder_.path()});
+        test_support::RunProgram(test_support::ProgramFile(), arguments, {.working_folder = folder_.path()});
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return run.exit_status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
   }

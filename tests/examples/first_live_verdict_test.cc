@@ -15,6 +15,7 @@
 #include "tests/examples/first_rig.h"
 #include "tests/recon/capture/own_network.h"
 #include "tests/recon/capture/served_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -31,7 +32,7 @@ namespace fs = std::filesystem;
 
 constexpr int kCameras = 3;
 constexpr double kRateHz = 10.0;
-const fs::path kPictures = fs::path(ELBOWROOM_SOURCE_DIR) / "docs/examples/first_rig";
+const fs::path kPictures = test_support::SourceFolder() / "docs/examples/first_rig";
 
 const auto* const kNetwork = ::testing::AddGlobalTestEnvironment(new recon::testing::OwnNetwork(kCameras));
 
@@ -49,7 +50,7 @@ class FirstLiveVerdict : public ::testing::Test {
   nlohmann::json Run(std::vector<std::string> arguments) const {
     arguments.emplace_back("--json");
     const test_support::ProgramRun run =
-        test_support::RunProgram(ELBOWROOM_PROGRAM, arguments, {.working_folder = folder_.path()});
+        test_support::RunProgram(test_support::ProgramFile(), arguments, {.working_folder = folder_.path()});
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return run.exit_status == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
   }
@@ -171,7 +172,7 @@ TEST_F(FirstLiveVerdict, BeforeTheCalibrationThereIsNoTrial) {
   fs::copy(kPictures / "bracket.stl", folder_.path());
   WriteText(folder_ / "trial.toml", "rig = \"cameras.yml\"\nlayout = \"layout.toml\"\n");
   const test_support::ProgramRun run = test_support::RunProgram(
-      ELBOWROOM_PROGRAM, {"trial", "run", "trial.toml", "--session", "first.db", "--headless"},
+      test_support::ProgramFile(), {"trial", "run", "trial.toml", "--session", "first.db", "--headless"},
       {.working_folder = folder_.path()});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_THAT(run.err, HasSubstr("camera 'cam1': not calibrated yet"));

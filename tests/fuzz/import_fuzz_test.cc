@@ -20,6 +20,7 @@
 #include "tests/cad_import/sample_files.h"
 #include "tests/core/solids.h"
 #include "tests/fuzz/mutation.h"
+#include "tests/support/places.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -153,7 +154,7 @@ TEST(ImportFuzz, DamagedFilesThatWereMadeHereDoNoHarm) {
 }
 
 TEST(ImportFuzz, DamagedFilesOfOthersDoNoHarm) {
-  const fs::path folder = fs::path(ELBOWROOM_SHARED_DATA_DIR) / "cad";
+  const fs::path folder = test_support::SharedDataFolder() / "cad";
   if (!fs::is_directory(folder)) GTEST_SKIP() << "NOT TESTED: " << folder << " is not on this machine";
   FuzzFrom(SharedSeeds(folder), FileCount(), SeedOfRun(52'002));
 }

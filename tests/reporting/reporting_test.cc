@@ -6,6 +6,7 @@
 #include "tests/reporting/markdown_table.h"
 #include "tests/reporting/marked_section.h"
 #include "tests/reporting/pareto_picture.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -95,7 +96,7 @@ TEST(ThreeDigits, AreThreeDigits) {
 }
 
 TEST(ThisMachine, IsNamed) {
-  const Machine machine = ThisMachine(ELBOWROOM_SOURCE_DIR);
+  const Machine machine = ThisMachine(test_support::SourceFolder());
   EXPECT_GE(machine.cores, 1);
   EXPECT_NE(machine.processor, "");
   EXPECT_NE(machine.gl_driver.find("OpenGL"), std::string::npos);

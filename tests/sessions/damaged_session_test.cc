@@ -23,6 +23,7 @@
 #include "sessions/session_reader.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -119,7 +120,7 @@ TEST(DamagedSession, TablesAndViewsMustBeThoseOfTheSchema) {
 TEST(DamagedSession, EverySchemaOnRecordIsItself) {
   for (std::int64_t schema = 1; schema <= sessions::kSchemaVersion; ++schema) {
     const fs::path stored =
-        fs::path(ELBOWROOM_SOURCE_DIR) / fmt::format("tests/sessions/stored/session_schema_{}.db", schema);
+        test_support::SourceFolder() / fmt::format("tests/sessions/stored/session_schema_{}.db", schema);
     sessions::Database database = sessions::Database::OpenReadOnly(stored);
     EXPECT_NO_THROW(sessions::RequireTablesOfSchema(database, schema));
     for (std::int64_t other = 1; other <= sessions::kSchemaVersion; ++other) {

@@ -10,6 +10,7 @@
 #include "sessions/session_writer.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
@@ -51,7 +52,7 @@ TEST(ReviewEditor, BringsOlderFilesToTheNewestSchema) {
   for (int schema = 1; schema <= 10; ++schema) {
     const test_support::TemporaryFolder folder;
     const auto path = folder / "s.db";
-    std::filesystem::copy_file(std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored" /
+    std::filesystem::copy_file(test_support::SourceFolder() / "tests/sessions/stored" /
                                    ("session_schema_" + std::to_string(schema) + ".db"),
                                path);
     const std::vector<core::Finding> before = FindingsOf(path);

@@ -11,6 +11,7 @@
 #include "sessions/session_reader.h"
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
@@ -19,7 +20,7 @@ namespace {
 using sessions::SessionReader;
 using test_support::TemporaryFolder;
 
-const std::filesystem::path kStored = std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored";
+const std::filesystem::path kStored = test_support::SourceFolder() / "tests/sessions/stored";
 
 std::string Contents(const std::filesystem::path& path) {
   std::ostringstream text;

@@ -1,4 +1,5 @@
 #include "tests/support/documented_queries.h"
+#include "tests/support/places.h"
 
 #include <filesystem>
 #include <fstream>
@@ -8,7 +9,7 @@ namespace elbowroom::test_support {
 std::vector<std::string> DocumentedQueries() {
   std::vector<std::string> blocks;
   bool is_inside = false;
-  std::ifstream file(std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "docs/session_database.md");
+  std::ifstream file(test_support::SourceFolder() / "docs/session_database.md");
   for (std::string line; std::getline(file, line);) {
     if (line == "```sql") {
       is_inside = true;

@@ -19,6 +19,7 @@
 #include "tests/reporting/machine_line.h"
 #include "tests/reporting/markdown_table.h"
 #include "tests/reporting/marked_section.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::accuracy {
 namespace {
@@ -35,7 +36,7 @@ std::vector<DetailCase> Cases() {
   std::vector<DetailCase> cases;
   for (const int rings : {71, 224, 708})
     cases.push_back({"bumpy ball", std::make_shared<const core::TriangleMesh>(BumpyBall(rings))});
-  const fs::path cad = fs::path(ELBOWROOM_SHARED_DATA_DIR) / "cad";
+  const fs::path cad = test_support::SharedDataFolder() / "cad";
   for (const char* name : {"nasa42/HST.obj", "trimesh_models/1002_tray_bottom.STL",
                            "trimesh_models/cycloidal.ply", "step/ap203_ap214/linkrods.step"}) {
     if (!fs::exists(cad / name)) {

@@ -14,6 +14,7 @@
 
 #include "recon/rig_files/rig_file.h"
 #include "tests/app/console/opened_urls.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -26,7 +27,7 @@ constexpr int kCalibrationPatienceMs = 240'000;  // far beyond what it takes on 
 class CalibrationPage : public testing::Test {
  protected:
   CalibrationPage() {
-    fs::copy(fs::path(ELBOWROOM_SOURCE_DIR) / "docs/examples/first_rig", folder_.path(),
+    fs::copy(test_support::SourceFolder() / "docs/examples/first_rig", folder_.path(),
              fs::copy_options::recursive);
   }
   static QString Text(const CalibrationDialog& dialog, const char* label) {

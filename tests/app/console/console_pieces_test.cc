@@ -22,6 +22,7 @@
 #include "app/console/view/picture_pace.h"
 #include "core/error.h"
 #include "tests/app/console/stall_watch.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -246,7 +247,7 @@ TEST(StallWatch, SeesAThreadThatWaits) {
 // Runs the program where there is no display: no core dump, no list of Qt's plugins, one line.
 void ExpectOneLineWithoutDisplay(const std::map<std::string, std::string>& environment) {
   const test_support::ProgramRun run =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {}, {.environment = environment});
+      test_support::RunProgram(test_support::ProgramFile(), {}, {.environment = environment});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find("no display"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("--headless"), std::string::npos) << run.err;
@@ -259,7 +260,7 @@ TEST(ConsoleStart, WithoutADisplayIsOneLine) {
 
 TEST(ConsoleStart, WithoutTheProgramOfTheWindowIsOneLine) {
   const test_support::TemporaryFolder folder;
-  std::filesystem::copy_file(ELBOWROOM_PROGRAM, folder / "elbowroom");
+  std::filesystem::copy_file(test_support::ProgramFile(), folder / "elbowroom");
   const test_support::ProgramRun run = test_support::RunProgram(folder / "elbowroom", {});
   EXPECT_EQ(run.exit_status, 1);
   EXPECT_NE(run.err.find("elbowroom_window-"), std::string::npos) << run.err;

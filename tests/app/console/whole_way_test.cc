@@ -34,13 +34,14 @@
 #include "tests/app/console/looks/kept_picture.h"
 #include "tests/app/console/opened_urls.h"
 #include "tests/app/console/window_fixture.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::console {
 namespace {
 
-const std::filesystem::path kData = ELBOWROOM_SHARED_DATA_DIR;
+const std::filesystem::path kData = test_support::SharedDataFolder();
 const std::filesystem::path kAssemblyFile = kData / "cad/step/ap203_ap214/as1-oc-214.stp";
 const std::filesystem::path kRig = kData / "four_cameras/rig.yml";
 // In the middle of the person that the footage shows (the data's README).

@@ -9,6 +9,7 @@
 #include "app/control/head/tracker_packet.h"
 #include "app/control/head/udp_port.h"
 #include "tests/openxr_runtime/mock_headset.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -18,7 +19,7 @@ namespace {
 
 using test_support::RunProgram;
 
-const std::string kProgram = ELBOWROOM_PROGRAM;
+const std::string kProgram = test_support::ProgramFile().string();
 
 // Sends a head that moves slowly, and one damaged packet in five.
 void Send(int port, const std::stop_token& stop) {

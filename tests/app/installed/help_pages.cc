@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 
 namespace elbowroom::test_support {
@@ -37,7 +38,7 @@ void ReadLine(const std::string& line, std::vector<HelpEntry>* entries) {
 
 HelpPage ReadHelpPage(const std::vector<std::string>& path, std::vector<std::string> arguments) {
   arguments.emplace_back("--help");
-  const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, arguments);
+  const ProgramRun run = RunProgram(test_support::ProgramFile(), arguments);
   if (run.exit_status != 0) throw std::runtime_error(run.err);
   HelpPage page{.path = path, .positionals = {}, .options = {}, .subcommands = {}, .footer = {}};
   std::vector<HelpEntry>* section = nullptr;

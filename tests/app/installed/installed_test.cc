@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/app/mask_rig.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 using test_support::ProgramRun;
 using test_support::RunProgram;
 
-const fs::path kExample = fs::path(ELBOWROOM_SOURCE_DIR) / "docs/examples/first_rig";
+const fs::path kExample = test_support::SourceFolder() / "docs/examples/first_rig";
 
 class Installed : public testing::Test {
  protected:
@@ -128,7 +129,7 @@ TEST_F(FileTypes, AreToldByWhatIsInTheFiles) {
 
 TEST_F(FileTypes, LeaveFilesOfOthersAlone) {
   EXPECT_EQ(TypeAs("CALIB.toml", kExample / "CALIB.toml"), "application/toml");
-  EXPECT_EQ(TypeOf(fs::path(ELBOWROOM_SOURCE_DIR) / "docs/layout.md"), "text/markdown");
+  EXPECT_EQ(TypeOf(test_support::SourceFolder() / "docs/layout.md"), "text/markdown");
   test_support::WriteText(Elsewhere() / "other.yml", "%YAML:1.0\ncameras: [ a, b ]\n");
   EXPECT_EQ(TypeOf(Elsewhere() / "other.yml"), "application/x-yaml");
   ASSERT_EQ(

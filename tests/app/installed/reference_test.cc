@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/app/installed/help_pages.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -35,7 +36,7 @@ const std::vector<HelpPage>& Help() {
 }
 
 std::string Reference(const std::string& form) {
-  const ProgramRun run = RunProgram(ELBOWROOM_PROGRAM, {"reference", form});
+  const ProgramRun run = RunProgram(test_support::ProgramFile(), {"reference", form});
   EXPECT_EQ(run.exit_status, 0) << run.err;
   return run.out;
 }

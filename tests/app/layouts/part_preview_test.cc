@@ -10,6 +10,7 @@
 #include "app/control/layout_editing/layout_document.h"
 #include "core/error.h"
 #include "tests/app/layouts/box_file.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::control {
@@ -19,7 +20,7 @@ using Eigen::Vector3d;
 using test_support::WriteBox;
 
 const std::filesystem::path kAssembly =
-    std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "cad/step/ap203_ap214/as1-oc-214.stp";
+    test_support::SharedDataFolder() / "cad/step/ap203_ap214/as1-oc-214.stp";
 
 TEST(PreviewPart, ShowsTheTreeOfAnAssembly) {
   const PartPreview preview = PreviewPart(kAssembly);

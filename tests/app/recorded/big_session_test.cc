@@ -14,6 +14,7 @@
 #include "sessions/session_reader.h"
 #include "sessions/session_writer.h"
 #include "tests/support/documented_queries.h"
+#include "tests/support/places.h"
 #include "tests/support/resident_memory.h"
 #include "tests/support/run_program.h"
 #include "tests/support/soak.h"
@@ -177,7 +178,7 @@ TEST_F(BigSession, StaysSmallIsReportedInBoundedMemoryAndAnswersItsQueries) {
   };
   const Clock::time_point begin = Clock::now();
   const auto run = test_support::RunProgram(
-      ELBOWROOM_PROGRAM, {"report", path_.string(), "--out", (folder_ / "out").string()}, options);
+      test_support::ProgramFile(), {"report", path_.string(), "--out", (folder_ / "out").string()}, options);
   has_ended = true;
   ASSERT_EQ(run.exit_status, 0) << run.err;
   std::printf("report: %.1f s, %.0f MB resident at most\n", SecondsSince(begin),

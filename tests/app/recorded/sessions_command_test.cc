@@ -8,6 +8,7 @@
 
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,7 +23,7 @@ class SessionsCommand : public testing::Test {
   void SetUp() override { tests::WriteTrial(folder_ / "s.db", tests::UsualTrial()); }
   [[nodiscard]] static ProgramRun Sessions(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "sessions");
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
   [[nodiscard]] std::string In(const char* name) const { return (folder_ / name).string(); }
   test_support::TemporaryFolder folder_;

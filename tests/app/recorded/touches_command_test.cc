@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/sessions/sample_trial.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,7 +21,7 @@ class TouchesCommand : public testing::Test {
   [[nodiscard]] ProgramRun Touches(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{"touches", (folder_ / "s.db").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
   [[nodiscard]] nlohmann::json Json(std::vector<std::string> more) const {
     more.emplace_back("--json");

@@ -7,6 +7,7 @@
 
 #include "app/control/demo_trial.h"
 #include "app/control/trial_runner.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -29,7 +30,7 @@ class ReplayCommand : public testing::Test {
     std::vector<std::string> arguments{"replay", (folder_ / "s.db").string(), "--session",
                                        (folder_ / "new.db").string(), "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
   [[nodiscard]] bool HasNew() const { return std::filesystem::exists(folder_ / "new.db"); }
   test_support::TemporaryFolder folder_;

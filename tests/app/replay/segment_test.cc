@@ -19,6 +19,7 @@
 #include "sessions/session_reader.h"
 #include "tests/app/live_demo.h"
 #include "tests/app/replay/session_rows.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -311,7 +312,7 @@ TEST_F(SegmentPictures, Command) {
     std::vector<std::string> arguments{"replay", Session("s").string(), "--session", Session("new").string(),
                                        "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   };
   EXPECT_EQ(run({"--rig", rig().string()}).exit_status, 2);
   EXPECT_EQ(run({"--segmentation", SettingsFile(20.0).string()}).exit_status, 2);

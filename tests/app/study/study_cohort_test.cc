@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "tests/app/study/cohort.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -53,7 +54,7 @@ class StudyCohort : public testing::Test {
     arguments.insert(arguments.end(), sessions_.begin(), sessions_.end());
     arguments.insert(arguments.end(), {"--out", (folder_ / "out").string(), "--json"});
     arguments.insert(arguments.end(), more.begin(), more.end());
-    const auto run = test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    const auto run = test_support::RunProgram(test_support::ProgramFile(), arguments);
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return nlohmann::json::parse(run.out);
   }

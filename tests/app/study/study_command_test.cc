@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/study/cohort.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -20,7 +21,7 @@ class StudyCommand : public testing::Test {
     std::vector<std::string> arguments{"study", (folder_ / "s.db").string(), "--out",
                                        (folder_ / "out").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
   test_support::TemporaryFolder folder_;
 };

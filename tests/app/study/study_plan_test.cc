@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -52,7 +53,7 @@ class StudyPlanTest : public testing::Test {
   [[nodiscard]] test_support::ProgramRun Plan(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments{"plan", (folder_ / "STUDY.toml").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
   test_support::TemporaryFolder folder_;
 };

@@ -17,6 +17,7 @@
 
 #include "tests/app/sweep/one_node_slurm.h"
 #include "tests/app/sweep/swept_sessions.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -76,8 +77,8 @@ void KillProcessesOf(const fs::path& out, const std::vector<fs::path>& sessions,
     const std::string name = entry.path().filename().string();
     if (!std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0; })) continue;
     const std::string command = CommandOf(entry.path());
-    if (!command.starts_with(ELBOWROOM_PROGRAM) || command.find("--cells-only") == std::string::npos ||
-        command.find(out.string()) == std::string::npos)
+    if (!command.starts_with(test_support::ProgramFile().string()) ||
+        command.find("--cells-only") == std::string::npos || command.find(out.string()) == std::string::npos)
       continue;
     for (const fs::path& session : sessions) {
       if (command.find(session.string()) == std::string::npos || (once != nullptr && once->contains(session)))

@@ -13,6 +13,7 @@
 #include "tests/app/sweep/swept_sessions.h"
 #include "tests/support/documents/page_in_browser.h"
 #include "tests/support/documents/read_pdf.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -80,7 +81,7 @@ TEST_F(SweepRevisions, AreWhatReplaysWithThatPartSay) {
       const std::string gap = std::to_string(140 + 20 * step);
       const fs::path replayed = folder_ / ("r" + std::to_string(i) + gap + ".db");
       const auto run = test_support::RunProgram(
-          ELBOWROOM_PROGRAM,
+          test_support::ProgramFile(),
           {"replay", sessions_[i].string(), "--session", replayed.string(), "--part",
            "payload_a=" + (folder_ / "deeper.stl").string() + ":mm", "--spacing", "payload_a_gap=" + gap});
       ASSERT_EQ(run.exit_status, 0) << run.err;

@@ -8,6 +8,7 @@
 #include "recon/synthetic/rig_presets.h"
 #include "recon/synthetic/synthetic_rig.h"
 #include "sessions/session_writer.h"
+#include "tests/support/places.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::tests {
@@ -49,7 +50,7 @@ test_support::ProgramRun RunSweep(const std::vector<std::filesystem::path>& sess
   for (const std::filesystem::path& session : sessions) arguments.push_back(session.string());
   arguments.insert(arguments.end(), {"--spacing", spacing, "--out", out.string()});
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments, options);
+  return test_support::RunProgram(test_support::ProgramFile(), arguments, options);
 }
 
 std::set<std::string> CellFiles(const std::filesystem::path& out) {

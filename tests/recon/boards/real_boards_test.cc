@@ -13,13 +13,14 @@
 #include <vector>
 
 #include "recon/boards/board_finder.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::recon {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kSharedData = ELBOWROOM_SHARED_DATA_DIR;
+const fs::path kSharedData = test_support::SharedDataFolder();
 
 Board Chessboard(int columns, int rows, double square_mm) {
   Board board;

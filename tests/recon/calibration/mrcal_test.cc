@@ -16,6 +16,7 @@
 #include "recon/calibration/lens_projection.h"
 #include "recon/calibration/rotation.h"
 #include "tests/recon/calibration/calibration_scene.h"
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -28,8 +29,7 @@ using Eigen::Vector3d;
 using nlohmann::json;
 
 const std::filesystem::path kPython = "/usr/bin/python3";  // Debian's, which its package mrcal is for
-const std::filesystem::path kOracle =
-    std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/oracles/mrcal_oracle.py";
+const std::filesystem::path kOracle = test_support::SourceFolder() / "tests/oracles/mrcal_oracle.py";
 
 bool HasMrcal() {
   return std::filesystem::exists(kPython) &&
@@ -331,8 +331,7 @@ TEST(Mrcal, ARationalLensThatThePicturesDoNotTellMovesNoPose) {
 
 // Sightings of OpenCV's stereo pair; empty: the pictures aren't here.
 CalibrationInput StereoPair() {
-  const std::filesystem::path folder =
-      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "calibration/chessboard";
+  const std::filesystem::path folder = test_support::SharedDataFolder() / "calibration/chessboard";
   CalibrationInput input;
   input.board = {BoardKind::kChessboard, 9, 6, 25.0, 0.0, ""};
   input.has_flat_board = true;
@@ -359,7 +358,7 @@ TEST(Mrcal, FindsTheSameRigFromRealPictures) {
   SKIP_WITHOUT_MRCAL();
   const CalibrationInput input = StereoPair();
   if (input.views.empty())
-    GTEST_SKIP() << "NOT TESTED: OpenCV's stereo pair isn't in " << ELBOWROOM_SHARED_DATA_DIR;
+    GTEST_SKIP() << "NOT TESTED: OpenCV's stereo pair isn't in " << test_support::SharedDataFolder().string();
   const CalibrationResult result = CalibrateAsMrcal(input);
   const std::vector<Vector3d> points = {{100.0, -60.0, 0.0}, {100.0, -60.0, 100.0}, {0.0, 0.0, -100.0}};
   const json theirs = RunMrcal(input, result, "LENSMODEL_OPENCV5", points);

@@ -13,6 +13,7 @@
 #include "recon/segmentation/frame_segmenter.h"
 #include "recon/segmentation/segmentation.h"
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -21,7 +22,7 @@ using core::ErrorKind;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-const std::filesystem::path kData = ELBOWROOM_SHARED_DATA_DIR;
+const std::filesystem::path kData = test_support::SharedDataFolder();
 
 class RealFootage : public ::testing::Test {
  protected:

@@ -13,6 +13,7 @@
 
 #include "recon/footage/recorded_rig.h"
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/places.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::recon {
@@ -166,8 +167,7 @@ TEST(StampedRig, ATableThatCantBeReadIsNamed) {
 
 // Four webcams that share no clock.
 TEST(StampedRig, RealWebcamsPlayAtTheirStamps) {
-  const std::filesystem::path webcams =
-      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "calibration" / "webcams";
+  const std::filesystem::path webcams = test_support::SharedDataFolder() / "calibration" / "webcams";
   if (!std::filesystem::exists(webcams)) GTEST_SKIP() << "NOT TESTED: no footage at " << webcams;
   std::vector<CameraSources> sources;
   for (int i = 0; i < 4; ++i) {

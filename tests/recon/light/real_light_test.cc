@@ -11,13 +11,13 @@
 #include "recon/light/empty_scene.h"
 #include "recon/light/light_watch.h"
 #include "recon/segmentation/frame_segmenter.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::recon {
 namespace {
 
 TEST(RealLight, OfARecordingIsSteadyAndItsPeopleAreNoLastingChange) {
-  const std::filesystem::path file =
-      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "four_cameras" / "rig.yml";
+  const std::filesystem::path file = test_support::SharedDataFolder() / "four_cameras" / "rig.yml";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "NOT TESTED on real footage: " << file << " is absent";
   // The recording lasts 426 frames. It is watched as 15 pictures a second, and once more as three a second,
   // so that it takes longer than a lasting change needs.
@@ -72,8 +72,7 @@ EmptySceneReport ExamineRoom(const CameraSources& sources, const core::CameraMod
 }
 
 TEST(RealLight, AnEmptyRoomIsToldFromOneThatSomebodyEnters) {
-  const std::filesystem::path file =
-      std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "four_cameras" / "rig.yml";
+  const std::filesystem::path file = test_support::SharedDataFolder() / "four_cameras" / "rig.yml";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "NOT TESTED on real footage: " << file << " is absent";
   const RigFile rig_file = ReadRigFile(file);
   for (std::size_t i = 0; i < rig_file.sources.size(); ++i) {

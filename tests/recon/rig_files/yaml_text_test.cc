@@ -10,6 +10,7 @@
 
 #include "recon/decoding/quiet_opencv.h"
 #include "tests/recon/footage/made_footage.h"
+#include "tests/support/places.h"
 #include "tests/support/text_file.h"
 
 namespace elbowroom::recon {
@@ -139,7 +140,7 @@ void ExpectSame(const YamlNode& ours, const cv::FileNode& theirs, const std::str
 }
 
 TEST(YamlText, ReadsFilesOfOthersAsOpenCvDoes) {
-  const std::filesystem::path folder = ELBOWROOM_SHARED_DATA_DIR;
+  const std::filesystem::path folder = test_support::SharedDataFolder();
   if (!std::filesystem::is_directory(folder))
     GTEST_SKIP() << "NOT TESTED: " << folder << " is not on this machine";
   SilenceOpenCv();

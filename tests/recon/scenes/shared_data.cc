@@ -1,4 +1,5 @@
 #include "tests/recon/scenes/shared_data.h"
+#include "tests/support/places.h"
 
 #include <filesystem>
 #include <fstream>
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = ELBOWROOM_SHARED_DATA_DIR;
+const fs::path kRoot = test_support::SharedDataFolder();
 
 core::CameraModel ReadCamera(const cv::FileNode& node) {
   cv::Mat k, d, r, t;

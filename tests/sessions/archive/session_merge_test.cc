@@ -9,6 +9,7 @@
 #include "tests/sessions/expect_error.h"
 #include "tests/sessions/sample_session.h"
 #include "tests/sessions/sample_trial.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 
 namespace elbowroom::tests {
@@ -116,8 +117,7 @@ TEST_F(SessionMerge, IsToldFromASession) {
 }
 
 TEST_F(SessionMerge, TakesFilesOfOlderSchemas) {
-  const auto stored =
-      std::filesystem::path(ELBOWROOM_SOURCE_DIR) / "tests/sessions/stored/session_schema_3.db";
+  const auto stored = test_support::SourceFolder() / "tests/sessions/stored/session_schema_3.db";
   WriteSampleSession(a_, 2);
   const auto taken = Merge({stored, a_});
   EXPECT_GT(taken[0].rows, 0);

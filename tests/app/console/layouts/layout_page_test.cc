@@ -24,6 +24,7 @@
 #include "cad_import/layout/layout_file.h"
 #include "tests/app/console/user_actions.h"
 #include "tests/app/layouts/box_file.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -46,7 +47,7 @@ position_mm = [0.0, 0.0, 200.0]
 )";
 
 const std::filesystem::path kAssembly =
-    std::filesystem::path(ELBOWROOM_SHARED_DATA_DIR) / "cad/step/ap203_ap214/as1-oc-214.stp";
+    test_support::SharedDataFolder() / "cad/step/ap203_ap214/as1-oc-214.stp";
 
 class LayoutPageTest : public testing::Test {
  protected:

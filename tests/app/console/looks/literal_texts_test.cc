@@ -6,6 +6,8 @@
 #include <QRegularExpression>
 #include <QString>
 
+#include "tests/support/places.h"
+
 namespace elbowroom::console {
 namespace {
 
@@ -27,8 +29,8 @@ TEST(Translation, EveryTextIsFoundByLupdate) {
   static const QRegularExpression noop(R"re(QT_TRANSLATE_NOOP\(\s*"([^"]*)")re");
   static const QRegularExpression by_hand(R"re(::translate\()re");
   int files = 0;
-  QDirIterator sources(QString(ELBOWROOM_SOURCE_DIR) + "/app/console", {"*.cc", "*.h"}, QDir::Files,
-                       QDirIterator::Subdirectories);
+  QDirIterator sources(QString::fromStdString((test_support::SourceFolder() / "app/console").string()),
+                       {"*.cc", "*.h"}, QDir::Files, QDirIterator::Subdirectories);
   while (sources.hasNext()) {
     const QString path = sources.next();
     const QString text = TextIn(path);

@@ -17,6 +17,7 @@
 #include "recon/rig_files/rig_file.h"
 #include "tests/app/console/looks/tour.h"
 #include "tests/app/console/procedure_trial.h"
+#include "tests/support/places.h"
 
 namespace elbowroom::console {
 namespace {
@@ -146,7 +147,7 @@ TEST_P(ProcedureTour, PreflightAndBackgroundAreAllThere) {
 }
 
 TEST_P(TrialTour, TheCalibrationIsAllThere) {
-  fs::copy(fs::path(ELBOWROOM_SOURCE_DIR) / "docs/examples/first_rig", folder_.path(),
+  fs::copy(test_support::SourceFolder() / "docs/examples/first_rig", folder_.path(),
            fs::copy_options::recursive);
   Know({"CALIB.toml", "cam", "plumb_bob"});
   CalibrationDialog dialog(folder_ / "CALIB.toml", folder_ / "rig.yml", &window_);
