@@ -39,6 +39,8 @@ void Framebuffer::BindForDrawing() const { glBindFramebuffer(GL_DRAW_FRAMEBUFFER
 
 void Framebuffer::ResolveColourFrom(const Framebuffer& source, int picture_width_px,
                                     int picture_height_px) const {
+  core::Require(source.width_px_ == width_px_ && source.height_px_ == height_px_,
+                "framebuffers to resolve have one size");
   glBindFramebuffer(GL_READ_FRAMEBUFFER, source.framebuffer_.get());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.get());
   glBlitFramebuffer(0, 0, picture_width_px, picture_height_px, 0, 0, picture_width_px, picture_height_px,

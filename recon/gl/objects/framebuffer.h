@@ -22,7 +22,7 @@ class Framebuffer {
   void BindForReading() const;
   void BindForDrawing() const;  // leaves the viewport, and the framebuffer for reading
 
-  // Averages the samples of a picture of that size in `source` into this one's colour.
+  // Averages the samples of a picture of that size in `source`, whose size is this one's, into its colour.
   void ResolveColourFrom(const Framebuffer& source, int picture_width_px, int picture_height_px) const;
 
  private:
