@@ -17,8 +17,7 @@ struct PictureFineness {
 };
 
 // Follows the machine: pictures become coarser where they take too long to draw and finer again where there
-// is time, in a few steps and with patience, so that they don't change to and fro. The first ones have one
-// sample a pixel, so that there is soon something to see. Thread: one.
+// is time, in a few steps and with patience, so that they don't change to and fro. Thread: one.
 class PicturePace {
  public:
   // Less than the time of a frame at 30 Hz, so that each frame is drawn although some pictures take longer.
@@ -38,7 +37,9 @@ class PicturePace {
                                                              {0.65, 0.5, false, 0.13},
                                                              {0.5, 0.5, false, 0.1}}};
 
-  std::size_t step_ = 1;
+  static constexpr std::size_t kFirstStep = 1;  // one sample a pixel: soon there is something to see
+
+  std::size_t step_ = kFirstStep;
   int in_a_row_ = 0;  // pictures that asked for the same change: above zero coarser, below zero finer
 };
 

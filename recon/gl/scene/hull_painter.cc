@@ -170,11 +170,6 @@ bool ShowsCameraColor(const Scene& scene) {
   return HasPixelColors(scene.hull_appearance) && !scene.hull_camera_color.empty();
 }
 
-// The layer of the finest picture to come is as large as that picture.
-Eigen::Vector2i RoomFor(const HullView& layer, const Scene& scene) {
-  return scene.largest_px.cwiseMax(Eigen::Vector2i(layer.width_px, layer.height_px));
-}
-
 }  // namespace
 
 HullPainter::HullPainter()
@@ -189,7 +184,7 @@ void HullPainter::UploadSurface(const Scene& scene, const TexelBox& texels) {
   const HullView& layer = *scene.hull;
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float), "normals upload as packed floats");
   if (!layer.normal_in_world.empty()) {
-    normal_.MakeRoom(RoomFor(layer, scene));
+    normal_.MakeRoom(scene.RoomPx(layer.width_px, layer.height_px));
     normal_.UploadWithin(layer.width_px, layer.height_px,
                          {layer.normal_in_world.front().data(), 3 * layer.normal_in_world.size()}, texels);
   }
@@ -224,7 +219,7 @@ void HullPainter::Draw(const Scene& scene, const ViewMatrices& matrices, const L
   program.Set("has_camera_color", ShowsCameraColor(scene) ? 1 : 0);
   program.Set("layer_camera_color", kCameraColorUnit);
   light.Apply(program, matrices);
-  depth_.MakeRoom(RoomFor(layer, scene));
+  depth_.MakeRoom(scene.RoomPx(layer.width_px, layer.height_px));
   if (!is_by_texel) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   DrawWith(program, layer, matrices.view, squares);
   glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);

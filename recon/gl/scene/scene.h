@@ -76,6 +76,11 @@ struct Scene {
   // a hull whose vectors don't match its size, one from the lamp that isn't square, a lamp that isn't
   // valid, a grid step not positive.
   void Validate() const;
+
+  // Width and height of what holds a picture, or a layer of it, of this size and the largest one to come.
+  [[nodiscard]] Eigen::Vector2i RoomPx(int width_px, int height_px) const {
+    return largest_px.cwiseMax(Eigen::Vector2i(width_px, height_px));
+  }
 };
 
 }  // namespace elbowroom::recon::gl

@@ -28,11 +28,6 @@ struct Targets {
   std::optional<Framebuffer> sampled;  // made for the first picture with several samples a pixel
 };
 
-// What buffers for the scene's pictures hold.
-Eigen::Vector2i RoomPx(const Scene& scene) {
-  return scene.largest_px.cwiseMax(Eigen::Vector2i(scene.view.width_px, scene.view.height_px));
-}
-
 }  // namespace
 
 // The context is the first member, so that it is destroyed last.
@@ -73,7 +68,7 @@ class SceneRenderer::Impl {
 };
 
 const Targets& SceneRenderer::Impl::TargetsFor(const Scene& scene) {
-  const Eigen::Vector2i room_px = RoomPx(scene);
+  const Eigen::Vector2i room_px = scene.RoomPx(scene.view.width_px, scene.view.height_px);
   if (!targets_ || targets_->single.width_px() != room_px.x() ||
       targets_->single.height_px() != room_px.y()) {
     targets_.reset();
@@ -104,7 +99,7 @@ void SceneRenderer::Impl::DrawOnStillLayer(const Scene& scene, const ViewMatrice
   if (need == StillLayer::Need::kNothing) {
     ++still_count_.kept;
   } else {
-    still_.BeginDrawing(need, scene.view, RoomPx(scene));
+    still_.BeginDrawing(need, scene.view, scene.RoomPx(scene.view.width_px, scene.view.height_px));
     surroundings_.DrawBackground(scene);
     parts_.DrawOpaqueDepth(scene.parts, matrices);
     parts_.DrawOpaque(scene.parts, matrices, lighting_, HullShadow::kLeftOut);
