@@ -133,6 +133,7 @@ int RunCommandLine(int argc, char** argv, const OpenConsole& open_console) {
   AddReportCommand(app, &choice);
   AddSweepCommand(app, &choice);
   AddPlanCommand(app, &choice);
+  AddSimulateCommand(app, &choice);
   AddStudyCommand(app, &choice);
   AddKeepoutCommand(app, &choice);
   AddTouchesCommand(app, &choice);

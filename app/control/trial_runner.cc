@@ -283,6 +283,10 @@ class Recording {
     for (core::SessionEvent& event : procedure_.Begin(step, frame, time_s)) writer_.Append(std::move(event));
   }
 
+  void Apply(core::FrameIndex frame, double time_s, const StepRequest& request) {
+    BeginStep(request.step, frame, time_s);
+  }
+
   void Apply(core::FrameIndex frame, double time_s, const ToolRequest& request) {
     const core::ToolMarked mark{request.tool, request.in_use};
     tools_in_use_.Take(mark);

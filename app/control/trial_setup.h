@@ -22,7 +22,7 @@ namespace elbowroom::control {
 // A change that the experimenter makes at a known frame; the demo's script consists of them.
 struct ScriptedChange {
   core::FrameIndex frame = 0;
-  std::variant<SpacingRequest, ToolRequest> what;
+  std::variant<SpacingRequest, ToolRequest, StepRequest> what;
 };
 
 struct TrialSetup {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/error.h"
 #include "core/units.h"
@@ -44,31 +45,52 @@ FingerBend BendDeg(double base, double middle, double tip) {
 }
 ThumbBone BoneDeg(double aside, double down) { return {RadiansFromDegrees(aside), RadiansFromDegrees(down)}; }
 
+// A hand that grows: of whom, where, and the solids so far. Lengths are those of the hand of 190 mm.
+class GrowingHand {
+ public:
+  GrowingHand(const core::RigidTransform& world_from_wrist, const HandBuild& build)
+      : world_from_wrist_(world_from_wrist), build_(build) {}
+
+  void AddCapsule(const Vector3d& a_in_wrist, const Vector3d& b_in_wrist, double radius_mm) {
+    AddCapsuleInWorld(InWorld(a_in_wrist), InWorld(b_in_wrist), radius_mm,
+                      build_.glove_bgr.value_or(kSkinBgr));
+  }
+  void AddCapsuleInWorld(const Vector3d& a_in_world, const Vector3d& b_in_world, double radius_mm,
+                         const Vector3d& color_bgr) {
+    solids_.push_back(
+        CapsuleBetween(a_in_world, b_in_world, build_.size * radius_mm + build_.glove_mm, color_bgr));
+  }
+  [[nodiscard]] Vector3d InWorld(const Vector3d& x_in_wrist) const {
+    return world_from_wrist_ * (build_.size * x_in_wrist);
+  }
+  [[nodiscard]] std::vector<Solid> Take() { return std::move(solids_); }
+
+ private:
+  const core::RigidTransform& world_from_wrist_;
+  const HandBuild& build_;
+  std::vector<Solid> solids_;
+};
+
 // Adds capsules from `from_in_wrist` on, bone after bone.
 class Chain {
  public:
-  Chain(const core::RigidTransform& world_from_wrist, const Vector3d& from_in_wrist,
-        std::vector<Solid>& solids)
-      : world_from_wrist_(world_from_wrist), end_in_wrist_(from_in_wrist), solids_(solids) {}
+  Chain(const Vector3d& from_in_wrist, GrowingHand& hand) : end_in_wrist_(from_in_wrist), hand_(hand) {}
 
   void AddBone(const Vector3d& bone_in_wrist, double radius_mm) {
     const Vector3d next_in_wrist = end_in_wrist_ + bone_in_wrist;
-    solids_.push_back(CapsuleBetween(world_from_wrist_ * end_in_wrist_, world_from_wrist_ * next_in_wrist,
-                                     radius_mm, kSkinBgr));
+    hand_.AddCapsule(end_in_wrist_, next_in_wrist, radius_mm);
     end_in_wrist_ = next_in_wrist;
   }
 
  private:
-  const core::RigidTransform& world_from_wrist_;
   Vector3d end_in_wrist_;
-  std::vector<Solid>& solids_;
+  GrowingHand& hand_;
 };
 
-void AddFinger(const core::RigidTransform& world_from_wrist, const FingerBuild& build, const FingerBend& bend,
-               std::vector<Solid>& solids) {
+void AddFinger(const FingerBuild& build, const FingerBend& bend, GrowingHand& hand) {
   const Vector3d knuckle(build.knuckle_x_mm, build.knuckle_y_mm, 0.0);
   const Vector3d palm_root(8.0, 0.6 * build.knuckle_y_mm, -6.0);
-  Chain chain(world_from_wrist, palm_root, solids);
+  Chain chain(palm_root, hand);
   chain.AddBone(knuckle - palm_root, kPalmRadiusMm);
   const std::array<double, 3> turn_rad{bend.base_rad, bend.middle_rad, bend.tip_rad};
   double angle_rad = 0.0;
@@ -79,9 +101,8 @@ void AddFinger(const core::RigidTransform& world_from_wrist, const FingerBuild& 
   }
 }
 
-void AddThumb(const core::RigidTransform& world_from_wrist, const std::array<ThumbBone, 3>& thumb,
-              std::vector<Solid>& solids) {
-  Chain chain(world_from_wrist, kThumbRootInWrist, solids);
+void AddThumb(const std::array<ThumbBone, 3>& thumb, GrowingHand& hand) {
+  Chain chain(kThumbRootInWrist, hand);
   for (std::size_t bone = 0; bone < 3; ++bone) {
     const double along = std::cos(thumb[bone].down_rad);
     chain.AddBone(kThumbBoneMm[bone] * Vector3d(along * std::cos(thumb[bone].aside_rad),
@@ -91,11 +112,12 @@ void AddThumb(const core::RigidTransform& world_from_wrist, const std::array<Thu
   }
 }
 
-void AddForearm(const Vector3d& wrist_in_world, const Vector3d& elbow_in_world, std::vector<Solid>& solids) {
+void AddForearm(const Vector3d& elbow_in_world, GrowingHand& hand) {
   constexpr double kSleeveStart = 0.3;  // share of the way to the elbow
+  const Vector3d wrist_in_world = hand.InWorld(kWristJointInWrist);
   const Vector3d sleeve_in_world = wrist_in_world + kSleeveStart * (elbow_in_world - wrist_in_world);
-  solids.push_back(CapsuleBetween(wrist_in_world, sleeve_in_world, kWristRadiusMm, kSkinBgr));
-  solids.push_back(CapsuleBetween(sleeve_in_world, elbow_in_world, kForearmRadiusMm, kSleeveBgr));
+  hand.AddCapsuleInWorld(wrist_in_world, sleeve_in_world, kWristRadiusMm, kSkinBgr);
+  hand.AddCapsuleInWorld(sleeve_in_world, elbow_in_world, kForearmRadiusMm, kSleeveBgr);
 }
 
 // Point at `share` between b and c on the Catmull-Rom curve through a, b, c, d.
@@ -145,14 +167,13 @@ HandShape Blend(const HandShape& from, const HandShape& to, double share) {
 }
 
 SyntheticObject Hand(const core::RigidTransform& world_from_wrist, const HandShape& shape,
-                     const Vector3d& elbow_in_world) {
-  SyntheticObject hand{"hand", {}};
-  for (std::size_t i = 0; i < kFingers.size(); ++i) {
-    AddFinger(world_from_wrist, kFingers[i], shape.fingers[i], hand.solids);
-  }
-  AddThumb(world_from_wrist, shape.thumb, hand.solids);
-  AddForearm(world_from_wrist * kWristJointInWrist, elbow_in_world, hand.solids);
-  return hand;
+                     const Vector3d& elbow_in_world, const HandBuild& build) {
+  core::Require(build.size > 0.0, "a hand has a size");
+  GrowingHand hand(world_from_wrist, build);
+  for (std::size_t i = 0; i < kFingers.size(); ++i) AddFinger(kFingers[i], shape.fingers[i], hand);
+  AddThumb(shape.thumb, hand);
+  AddForearm(elbow_in_world, hand);
+  return {"hand", hand.Take()};
 }
 
 // Points alone are mapped, so that a reflection will do.

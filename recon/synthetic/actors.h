@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 
 #include "recon/synthetic/solids.h"
@@ -33,11 +34,18 @@ struct HandShape {
 [[nodiscard]] HandShape CuppedHand();  // half of a bowl, thumb beside the index finger
 [[nodiscard]] HandShape Blend(const HandShape& from, const HandShape& to, double share);
 
+// Whose hand it is.
+struct HandBuild {
+  double size = 1.0;                              // of an adult hand of 190 mm; > 0
+  double glove_mm = 0.0;                          // thicker all round by this
+  std::optional<Eigen::Vector3d> glove_bgr = {};  // its colour; nothing: skin
+};
+
 // Wrist frame of the right hand: origin in the wrist, x along the stretched fingers, y to the thumb's side, z
 // out of the back of the hand. An adult hand of 190 mm. The forearm is a capsule pair from the wrist to the
 // elbow.
 [[nodiscard]] SyntheticObject Hand(const core::RigidTransform& world_from_wrist, const HandShape& shape,
-                                   const Eigen::Vector3d& elbow_in_world);
+                                   const Eigen::Vector3d& elbow_in_world, const HandBuild& build = {});
 
 // The left one, its mirror image: y of the wrist frame is to the little finger's side.
 [[nodiscard]] SyntheticObject LeftHand(const core::RigidTransform& world_from_wrist, const HandShape& shape,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <opencv2/core.hpp>
 #include <utility>
@@ -54,6 +55,7 @@ class PixelStatistics {
 }  // namespace
 
 void SyntheticRigOptions::Validate() const {
+  core::Require(noise_from >= 0, "noise_from is not negative");
   core::Require(frame_rate_hz > 0.0, "frame_rate_hz is positive");
   core::Require(!frame_count || *frame_count > 0, "frame_count is positive");
   core::Require(noise_sigma_levels >= 0.0, "noise_sigma_levels is not negative");
@@ -64,12 +66,26 @@ void SyntheticRigOptions::Validate() const {
 }
 
 SyntheticRig::SyntheticRig(core::Rig rig, SceneAtTime scene_at, SyntheticRigOptions options)
-    : rig_(std::move(rig)), scene_at_(std::move(scene_at)), options_(options) {
+    : rig_(std::move(rig)),
+      scene_at_(std::move(scene_at)),
+      options_(std::move(options)),
+      empty_(std::make_shared<Empty>()) {
   options_.Validate();
   rig_.Validate();
   core::Require(static_cast<bool>(scene_at_), "a synthetic rig has a scene");
-  views_.reserve(rig_.cameras.size());
-  for (const core::CameraModel& camera : rig_.cameras) views_.emplace_back(camera, options_.seed);
+  empty_->views.reserve(rig_.cameras.size());
+  for (const core::CameraModel& camera : rig_.cameras) empty_->views.emplace_back(camera, options_.seed);
+}
+
+SyntheticRig SyntheticRig::Before(SceneAtTime scene_at, std::optional<core::FrameIndex> frame_count,
+                                  core::FrameIndex noise_from) const {
+  SyntheticRig rig(*this);
+  rig.scene_at_ = std::move(scene_at);
+  rig.options_.frame_count = frame_count;
+  rig.options_.noise_from = noise_from;
+  rig.options_.Validate();
+  core::Require(static_cast<bool>(rig.scene_at_), "a synthetic rig has a scene");
+  return rig;
 }
 
 cv::Mat SyntheticRig::Capture(core::CameraIndex camera, core::FrameIndex noise_frame,
@@ -81,7 +97,7 @@ cv::Mat SyntheticRig::Capture(core::CameraIndex camera, core::FrameIndex noise_f
   exposure.noise_sigma_levels = options_.noise_sigma_levels;
   exposure.table_shadow = options_.table_shadow;
   exposure.samples_per_pixel_side = options_.samples_per_pixel_side;
-  return views_[camera].Render(solids, exposure);
+  return empty_->views[camera].Render(solids, exposure);
 }
 
 std::optional<FrameSet> SyntheticRig::TryRead(core::FrameIndex index, std::stop_token /*stop*/) {
@@ -95,19 +111,36 @@ std::optional<FrameSet> SyntheticRig::TryRead(core::FrameIndex index, std::stop_
   FrameSet set;
   set.index = index;
   set.time_s = TimeOfFrameS(index);
-  set.cameras.resize(views_.size());
-  tbb::parallel_for(std::size_t{0}, views_.size(),
-                    [&](std::size_t i) { set.cameras[i].image_bgr = Capture(i, index, solids); });
+  set.cameras.resize(empty_->views.size());
+  tbb::parallel_for(std::size_t{0}, set.cameras.size(), [&](std::size_t i) {
+    set.cameras[i].image_bgr = Capture(i, options_.noise_from + index, solids);
+  });
   return set;
 }
 
+// Each gets pictures of its own.
 std::vector<BackgroundReference> SyntheticRig::ReadBackgrounds(const core::Progress& progress,
                                                                std::stop_token stop) {
-  std::vector<PixelStatistics> statistics(views_.size());
+  const std::lock_guard lock(empty_->mutex);
+  // While it waits for its own work, the thread must not begin other work that wants the lock.
+  tbb::this_task_arena::isolate([&] {
+    if (empty_->backgrounds.empty()) empty_->backgrounds = MeasureBackgrounds(progress, stop);
+  });
+  std::vector<BackgroundReference> references = empty_->backgrounds;
+  for (BackgroundReference& reference : references) {
+    reference.mean_bgr = reference.mean_bgr.clone();
+    reference.sigma_bgr = reference.sigma_bgr.clone();
+  }
+  return references;
+}
+
+std::vector<BackgroundReference> SyntheticRig::MeasureBackgrounds(const core::Progress& progress,
+                                                                  const std::stop_token& stop) const {
+  std::vector<PixelStatistics> statistics(empty_->views.size());
   for (int frame = 0; frame < options_.background_frames; ++frame) {
     core::ThrowIfStopped(stop, "measuring the simulated background");
     // Negative noise frames: the background's noise is never that of a frame of the trial.
-    tbb::parallel_for(std::size_t{0}, views_.size(),
+    tbb::parallel_for(std::size_t{0}, statistics.size(),
                       [&](std::size_t i) { statistics[i].Add(Capture(i, -1 - frame, {})); });
     progress.Report(frame + 1, options_.background_frames, "measuring the simulated background");
   }
@@ -128,8 +161,8 @@ std::vector<SyntheticObject> SyntheticRig::ObjectsAt(core::FrameIndex index) con
 std::vector<core::BitMask> SyntheticRig::TrueMasks(std::span<const SyntheticObject> objects) const {
   const std::vector<Solid> solids = AllSolids(objects);
   std::vector<core::BitMask> masks;
-  masks.reserve(views_.size());
-  for (const CameraView& view : views_) masks.push_back(view.TrueMask(solids));
+  masks.reserve(empty_->views.size());
+  for (const CameraView& view : empty_->views) masks.push_back(view.TrueMask(solids));
   return masks;
 }
 

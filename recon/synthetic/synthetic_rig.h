@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -17,6 +19,7 @@ namespace elbowroom::recon {
 
 struct SyntheticRigOptions {
   std::uint64_t seed = 1;
+  core::FrameIndex noise_from = 0;              // the noise of frame i is that of i + this; >= 0
   double frame_rate_hz = 15.0;                  // > 0
   std::optional<core::FrameIndex> frame_count;  // > 0; nothing: no end
   std::string what_ends_it = "the simulation";  // FrameSetSource::WhatEndsIt
@@ -44,6 +47,11 @@ class SyntheticRig : public FrameSetSource {
   // Error{kCamera} for a rig without cameras or a lens without a ray for some pixel.
   SyntheticRig(core::Rig rig, SceneAtTime scene_at, SyntheticRigOptions options = {});
 
+  // The same cameras before another scene: what takes long is shared, rays, cloth and the background that one
+  // of them measures. The noise of its frames begins at `noise_from`. Throws: PreconditionError.
+  [[nodiscard]] SyntheticRig Before(SceneAtTime scene_at, std::optional<core::FrameIndex> frame_count,
+                                    core::FrameIndex noise_from) const;
+
   [[nodiscard]] const core::Rig& rig() const override { return rig_; }
   [[nodiscard]] std::optional<core::FrameIndex> frame_count() const override { return options_.frame_count; }
   [[nodiscard]] std::string WhatEndsIt() const override { return options_.what_ends_it; }
@@ -60,11 +68,20 @@ class SyntheticRig : public FrameSetSource {
  private:
   [[nodiscard]] cv::Mat Capture(core::CameraIndex camera, core::FrameIndex noise_frame,
                                 std::span<const Solid> solids) const;
+  [[nodiscard]] std::vector<BackgroundReference> MeasureBackgrounds(const core::Progress& progress,
+                                                                    const std::stop_token& stop) const;
+
+  // What doesn't depend on the scene.
+  struct Empty {
+    std::vector<CameraView> views;
+    std::mutex mutex;
+    std::vector<BackgroundReference> backgrounds;  // none: not measured yet
+  };
 
   core::Rig rig_;
   SceneAtTime scene_at_;
   SyntheticRigOptions options_;
-  std::vector<CameraView> views_;
+  std::shared_ptr<Empty> empty_;
 };
 
 }  // namespace elbowroom::recon

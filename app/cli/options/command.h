@@ -86,6 +86,7 @@ void AddSessionsCommand(CLI::App& app, Choice* choice);
 void AddTouchesCommand(CLI::App& app, Choice* choice);
 void AddRigCommand(CLI::App& app, Choice* choice);
 void AddSegmentCommand(CLI::App& app, Choice* choice);
+void AddSimulateCommand(CLI::App& app, Choice* choice);
 void AddPlanCommand(CLI::App& app, Choice* choice);
 void AddStudyCommand(CLI::App& app, Choice* choice);
 void AddSweepCommand(CLI::App& app, Choice* choice);

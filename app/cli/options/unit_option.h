@@ -37,6 +37,9 @@ inline CLI::Validator PositiveLength() {
           "MM"};
 }
 
+// Accepts numbers of that range, both ends included; CLI::Range lets "nan" pass.
+[[nodiscard]] CLI::Validator NumberWithin(double least, double most);
+
 // Accepts finite numbers from zero.
 inline CLI::Validator LengthFromZero() {
   return {[](const std::string& text) -> std::string {

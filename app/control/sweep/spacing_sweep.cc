@@ -1,67 +1,17 @@
 #include "app/control/sweep/spacing_sweep.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
 
 #include <atomic>
-#include <exception>
-#include <mutex>
 #include <optional>
 #include <utility>
 
+#include "app/control/parallel_tasks.h"
 #include "app/control/sweep/session_sweep.h"
 #include "core/error.h"
 
 namespace elbowroom::control {
 namespace {
-
-// Runs a task for each session, several at once. The first failure stops the others, and is thrown.
-template <typename Task>
-void ForEachSession(std::size_t count, const std::stop_token& stop, const Task& task) {
-  std::stop_source all;
-  const std::stop_callback pass_on(stop, [&] { all.request_stop(); });
-  std::once_flag once;
-  std::exception_ptr first;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        // A thread that waits for its session's own work doesn't begin another session meanwhile.
-        tbb::this_task_arena::isolate([&] {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            try {
-              core::ThrowIfStopped(all.get_token(), "the sweep");
-              task(i, all.get_token());
-            } catch (...) {
-              std::call_once(once, [&] { first = std::current_exception(); });
-              all.request_stop();
-            }
-          }
-        });
-      },
-      tbb::simple_partitioner());
-  if (first) std::rethrow_exception(first);
-}
-
-// What several threads report, one at a time; who comes meanwhile leaves it out.
-class SharedProgress {
- public:
-  SharedProgress(const core::Progress& progress, std::int64_t total) : progress_(progress), total_(total) {}
-
-  void Add(std::int64_t frames) {
-    const std::int64_t done = done_ += frames;
-    if (is_reporting_.test_and_set()) return;
-    progress_.Report(done, total_, "frames");
-    is_reporting_.clear();
-  }
-
- private:
-  const core::Progress& progress_;
-  const std::int64_t total_;
-  std::atomic<std::int64_t> done_ = 0;
-  std::atomic_flag is_reporting_;
-};
 
 // What is compared between sessions before any of them is judged.
 struct SessionCheck {
@@ -98,7 +48,7 @@ std::int64_t CheckSessions(const SweepRequest& request, const std::stop_token& s
   core::Require(!request.sessions.empty(), "a session at least");
   std::vector<SessionCheck> checks(request.sessions.size());
   std::atomic<std::int64_t> frames = 0;
-  ForEachSession(request.sessions.size(), stop, [&](std::size_t i, const std::stop_token& token) {
+  RunTasks(request.sessions.size(), "the sweep", stop, [&](std::size_t i, const std::stop_token& token) {
     const SessionSweep session(request.sessions[i], request, token);
     checks[i] = {session.Parts(), session.recording_id()};
     frames += session.frame_count();
@@ -117,10 +67,10 @@ void CheckSweep(const SweepRequest& request, const std::stop_token& stop) {
 SpacingSweep SweepSpacing(const SweepRequest& request, const core::Progress& progress,
                           const std::stop_token& stop) {
   const std::int64_t total = CheckSessions(request, stop);
-  SharedProgress shared(progress, total);
+  SharedProgress shared(progress, total, "frames");
   std::vector<SessionPiece> pieces(request.sessions.size());
   std::vector<SweptParts> parts;  // of the first session, and so of each
-  ForEachSession(request.sessions.size(), stop, [&](std::size_t i, const std::stop_token& token) {
+  RunTasks(request.sessions.size(), "the sweep", stop, [&](std::size_t i, const std::stop_token& token) {
     const SessionSweep session(request.sessions[i], request, token);
     pieces[i] = session.Run([&](std::int64_t frames) { shared.Add(frames); }, token);
     if (i == 0) parts = session.Parts();

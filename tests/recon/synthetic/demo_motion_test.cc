@@ -103,5 +103,34 @@ TEST(DemoMotion, GoesThroughItsPhasesAndRepeats) {
   EXPECT_THROW((void)DemoSceneAt(-0.1), core::PreconditionError);
 }
 
+TEST(PayloadManner, DecidesWhoStandsWhereWithWhichHand) {
+  const PayloadManner demo;
+  PayloadManner other;
+  other.hand_size = 0.9;
+  other.from_rad = 0.3;
+  other.takes_tongs = false;
+  other.strokes = 3;
+  other.Validate();
+  for (const double time_s : {2.0, 6.5, 11.0}) {
+    const DemoScene scene = PayloadSceneAt(other, time_s);
+    EXPECT_EQ(scene.phase, PayloadSceneAt(demo, time_s).phase);
+    EXPECT_FALSE(scene.tongs_in_use);
+    EXPECT_EQ(Find(scene, "tongs"), nullptr);
+    const auto& hand = Find(scene, "hand")->solids;
+    EXPECT_NEAR(std::get<Capsule>(hand.front().shape).radius_mm,
+                0.9 * std::get<Capsule>(Find(DemoSceneAt(time_s), "hand")->solids.front().shape).radius_mm,
+                1e-12);
+  }
+  // Turned about the receptacle, the pipe still ends in it, and the plug at the outlet.
+  const DemoScene end = PayloadSceneAt(other, kTaskSeconds);
+  EXPECT_NEAR((Find(end, "pipe")->solids[0].world_from_solid * Vector3d(0.0, 0.0, 0.0) -
+               Vector3d(0.0, 0.0, kPipeStandsAtZMm))
+                  .norm(),
+              0.0, 1e-9);
+  EXPECT_NEAR(Find(end, "cable")->solids[0].world_from_solid.translation_mm.z(), kPlugEndsAtZMm, 1e-9);
+  other.strokes = 0;
+  EXPECT_THROW(other.Validate(), core::PreconditionError);
+}
+
 }  // namespace
 }  // namespace elbowroom::recon

@@ -52,6 +52,23 @@ TEST(SyntheticRig, AFrameIsAFunctionOfSeedAndIndexAlone) {
   EXPECT_DOUBLE_EQ(first.time_s, 12.0) << "15 frames a second";
 }
 
+TEST(SyntheticRig, AnotherSceneBeforeTheSameCamerasIsAsOneMadeAnew) {
+  SyntheticRig empty(FourCameraRig(), [](double) { return std::vector<SyntheticObject>(); });
+  const auto demo = [](double time_s) { return DemoSceneAt(time_s).objects; };
+  SyntheticRig shared = empty.Before(demo, 200, 0), anew = DemoRig();
+  EXPECT_TRUE(SameImages(shared.Read(kBusyFrame), anew.Read(kBusyFrame)));
+  EXPECT_FALSE(shared.TryRead(200, {}));
+  const auto of_shared = shared.ReadBackgrounds({}, {}), of_anew = anew.ReadBackgrounds({}, {}),
+             of_empty = empty.ReadBackgrounds({}, {});
+  for (std::size_t i = 0; i < of_anew.size(); ++i) {
+    EXPECT_EQ(cv::norm(of_shared[i].mean_bgr, of_anew[i].mean_bgr, cv::NORM_INF), 0.0);
+    EXPECT_EQ(cv::norm(of_empty[i].sigma_bgr, of_anew[i].sigma_bgr, cv::NORM_INF), 0.0);
+    EXPECT_NE(of_shared[i].mean_bgr.data, of_empty[i].mean_bgr.data) << "nobody changes another's";
+  }
+  EXPECT_FALSE(SameImages(empty.Before(demo, 200, 1000).Read(kBusyFrame), anew.Read(kBusyFrame)))
+      << "noise of its own";
+}
+
 TEST(SyntheticRig, TheBackgroundReferenceHasTheNoiseThatWasAskedFor) {
   SyntheticRigOptions options;
   options.noise_sigma_levels = 2.0;
