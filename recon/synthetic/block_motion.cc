@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "recon/synthetic/ease.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -25,11 +26,6 @@ const Vector3d kWhiteBgr(230.0, 235.0, 235.0), kBlueBgr(220.0, 150.0, 90.0);
 // When the hand is where, in shares of one block's time; it thinks until the block is over.
 enum Moment : std::size_t { kStarts, kOverStock, kAtStock, kLifted, kOverSlot, kAtSlot, kReleased };
 constexpr std::array<double, 7> kMoments{0.0, 0.22, 0.32, 0.38, 0.64, 0.76, 0.84};
-
-double Ease(double at, double begin, double end) {
-  const double t = std::clamp((at - begin) / (end - begin), 0.0, 1.0);
-  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-}
 
 // Where block i waits: beside the pattern, in two rows. All are places of a block's underside.
 Vector3d Stock(int i) {

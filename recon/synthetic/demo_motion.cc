@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/units.h"
 #include "recon/synthetic/actors.h"
+#include "recon/synthetic/ease.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -40,12 +41,6 @@ constexpr double kPipeTopInWristZMm = -44.0;
 const Vector3d kTongsGripInWrist(86.0, 29.0, -82.0);
 constexpr double kTongsClosedDeg = 4.0;
 constexpr double kTongsOpenDeg = 11.0;
-
-// 0 before `begin_s`, 1 after `end_s`, with continuous speed and acceleration between.
-double Ease(double time_s, double begin_s, double end_s) {
-  const double t = std::clamp((time_s - begin_s) / (end_s - begin_s), 0.0, 1.0);
-  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-}
 
 // Wrist axes in the world: fingers towards `fingers`, thumb's side towards `thumb` (perpendicular, unit).
 Eigen::Matrix3d WristAxes(const Vector3d& fingers, const Vector3d& thumb) {

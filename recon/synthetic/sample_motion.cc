@@ -1,24 +1,18 @@
 #include "recon/synthetic/sample_motion.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
 #include "core/units.h"
 #include "recon/synthetic/actors.h"
+#include "recon/synthetic/ease.h"
 
 namespace elbowroom::recon {
 namespace {
 
 using core::RigidTransform;
 using Eigen::Vector3d;
-
-// 0 before `begin_s`, 1 after `end_s`, with continuous speed and acceleration between.
-double Smooth(double time_s, double begin_s, double end_s) {
-  const double t = std::clamp((time_s - begin_s) / (end_s - begin_s), 0.0, 1.0);
-  return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
-}
 
 Eigen::Matrix3d Axes(const Vector3d& x, const Vector3d& y) {
   Eigen::Matrix3d axes;
@@ -42,8 +36,8 @@ std::vector<SyntheticObject> HandsAtCurtain(double time_s) {
   constexpr double kAwayMm = 560.0, kThroughMm = 75.0;  // of the wrist, before the curtain
   constexpr double kTogetherMm = 42.0, kApartMm = 150.0, kHeightMm = 250.0;
   if (t < 0.3 || t > kCurtainSeconds - 0.5) return {};
-  const double in = Smooth(t, 0.3, 2.8) - Smooth(t, 7.0, 9.4);
-  const double apart = Smooth(t, 2.9, 5.2) - 0.4 * Smooth(t, 7.0, 9.4);
+  const double in = Ease(t, 0.3, 2.8) - Ease(t, 7.0, 9.4);
+  const double apart = Ease(t, 2.9, 5.2) - 0.4 * Ease(t, 7.0, 9.4);
   std::vector<SyntheticObject> hands;
   for (const double side : {1.0, -1.0}) {  // the right hand, then the left one
     const Vector3d wrist(kCurtainXMm + kAwayMm + in * (kThroughMm - kAwayMm),
@@ -65,7 +59,7 @@ std::vector<SyntheticObject> HandsAtFaucet(double time_s) {
   const double down_rad = core::RadiansFromDegrees(12.0);  // fingers, so that water stays before them
   const Vector3d fingers(-std::cos(down_rad), 0.0, -std::sin(down_rad));
   if (t < 0.8 || t > kFaucetSeconds - 0.4) return {};
-  const double in = Smooth(t, 0.8, 3.2) - Smooth(t, 9.2, 11.4);
+  const double in = Ease(t, 0.8, 3.2) - Ease(t, 9.2, 11.4);
   std::vector<SyntheticObject> hands;
   for (const double side : {1.0, -1.0}) {
     const Vector3d wrist(kAwayMm + in * (kBelowMm - kAwayMm), side * kHalfApartMm, kHeightMm);

@@ -72,7 +72,7 @@ void Record(const SimulatedTrial& trial, const recon::SyntheticRig& stage, core:
     fs::remove(outcome.session);
     core::ThrowIfStopped(stop, "the simulation");
   }
-  sessions::AddAfterTrial(outcome.session, trial.after);
+  if (!trial.after.empty()) sessions::AddAfterTrial(outcome.session, trial.after);
 }
 
 recon::SyntheticRig StageOf(const CohortOptions& options) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
@@ -18,6 +19,57 @@ using nlohmann::json;
 
 // The hull of four cameras holds the real thing but for what segmentation loses at its edge, and more.
 constexpr double kLostMm = 2.0, kHullExcessMm = 12.0;
+
+using ByParticipant = std::map<std::string, double>;
+
+// Welch's test from its formula.
+struct Welch {
+  double mean_a = 0.0, mean_b = 0.0, t = 0.0, df = 0.0;
+
+  Welch(const ByParticipant& a, const ByParticipant& b) {
+    const auto [a_mean, a_error2] = Of(a);
+    const auto [b_mean, b_error2] = Of(b);
+    mean_a = a_mean;
+    mean_b = b_mean;
+    t = (a_mean - b_mean) / std::sqrt(a_error2 + b_error2);
+    df = std::pow(a_error2 + b_error2, 2.0) / (a_error2 * a_error2 / (static_cast<double>(a.size()) - 1.0) +
+                                               b_error2 * b_error2 / (static_cast<double>(b.size()) - 1.0));
+  }
+  static std::pair<double, double> Of(const ByParticipant& values) {
+    const auto n = static_cast<double>(values.size());
+    double mean = 0.0, squares = 0.0;
+    for (const auto& [who, value] : values) mean += value / n;
+    for (const auto& [who, value] : values) squares += (value - mean) * (value - mean);
+    return {mean, squares / (n - 1.0) / n};
+  }
+};
+
+// The known time of a task's patterns, the mean of each participant in a condition.
+std::map<std::string, ByParticipant> TimesOf(const json& cohort, const std::string& task) {
+  std::map<std::string, std::map<std::string, std::vector<double>>> all;
+  for (const json& trial : cohort["trials"])
+    if (trial["task"] == task) all[trial["condition"]][trial["participant"]].push_back(trial["pattern_s"]);
+  std::map<std::string, ByParticipant> means;
+  for (const auto& [condition, by_participant] : all)
+    for (const auto& [who, times] : by_participant)
+      means[condition][who] =
+          std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
+  return means;
+}
+
+void ExpectComparison(const json& study, const std::string& measure, const std::string& a,
+                      const std::string& b, const Welch& expected) {
+  SCOPED_TRACE(fmt::format("{}: {} against {}", measure, a, b));
+  const auto found = std::ranges::find_if(study["comparisons"], [&](const json& comparison) {
+    return comparison["measure"] == measure && comparison["a"] == a && comparison["b"] == b;
+  });
+  ASSERT_NE(found, study["comparisons"].end());
+  constexpr double kRounding = 1e-9;
+  EXPECT_NEAR((*found)["mean_a"].get<double>(), expected.mean_a, kRounding);
+  EXPECT_NEAR((*found)["mean_b"].get<double>(), expected.mean_b, kRounding);
+  EXPECT_NEAR((*found)["t"].get<double>(), expected.t, kRounding);
+  EXPECT_NEAR((*found)["df"].get<double>(), expected.df, kRounding);
+}
 
 class CohortTables : public testing::Test {
  protected:
@@ -63,6 +115,35 @@ TEST_F(CohortTables, TableThreeIsThatOfTheMadeMotion) {
   }
   EXPECT_GE(study["mean_shortfall_mm"].get<double>(), made_mm - kLostMm);
   EXPECT_LE(study["mean_shortfall_mm"].get<double>(), made_mm + kHullExcessMm);
+}
+
+TEST_F(CohortTables, BlocksGiveThePapersTablesOneAndTwo) {
+  const json cohort = Simulate({"blocks", "--participants", "6", "--seconds", "0.5", "--rate", "10"});
+  ASSERT_EQ(cohort["trials"].size(), 6U * 20U);
+  const json study = Study(cohort), beyond = Study(cohort, {"--baseline", "real"});
+  for (const char* task : {"2 x 2, practice", "3 x 3, practice", "2 x 2, timed", "3 x 3, timed"}) {
+    auto times = TimesOf(cohort, task);
+    ASSERT_EQ(times["real"].size(), 6U);
+    ASSERT_EQ(times["generic hands"].size(), 3U);
+    const std::string measure = std::string("step_s:") + task;
+    // Table 1: the times by condition. Table 2: how they differ, of each participant's own in real space.
+    ExpectComparison(study, measure, "faithful hands", "generic hands",
+                     Welch(times["faithful hands"], times["generic hands"]));
+    ExpectComparison(study, measure, "generic hands", "real", Welch(times["generic hands"], times["real"]));
+    for (const char* hybrid : {"faithful hands", "generic hands"})
+      for (auto& [who, time] : times[hybrid]) time -= times["real"][who];
+    const Welch more(times["faithful hands"], times["generic hands"]);
+    EXPECT_GT(more.mean_a, 0.0) << "slower than in real space";
+    ExpectComparison(beyond, measure, "faithful hands", "generic hands", more);
+  }
+  for (std::size_t i = 0; i < 6; ++i) {
+    double known_mm = 0.0;
+    for (const json& trial : cohort["trials"])
+      if (trial["participant"] == study["rows"][i]["participant"])
+        known_mm = std::max(known_mm, trial["needed_mm"].get<double>());
+    EXPECT_GE(study["rows"][i]["needed_mm"].get<double>(), known_mm - kLostMm);
+    EXPECT_LE(study["rows"][i]["needed_mm"].get<double>(), known_mm + kHullExcessMm);
+  }
 }
 
 }  // namespace
