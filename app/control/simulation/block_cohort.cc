@@ -85,7 +85,7 @@ double TimesOf(const Pattern& pattern) {
 }
 
 // How a person is about all patterns.
-struct Person {
+struct BlockPerson {
   recon::BlockManner manner;
   double times = 1.0;         // of the usual time
   double hybrid_times = 1.0;  // in a hybrid environment, beside its own
@@ -93,8 +93,8 @@ struct Person {
 
 double Share(PersonDraws* draws, double sd) { return std::clamp(draws->Normal(1.0, sd), 0.5, 1.6); }
 
-Person DrawPerson(PersonDraws* draws) {
-  Person person;
+BlockPerson DrawBlockPerson(PersonDraws* draws) {
+  BlockPerson person;
   person.manner.hand.size = draws->Uniform(0.88, 1.12);
   person.manner.from_rad = core::RadiansFromDegrees(draws->Uniform(-15.0, 15.0));
   person.manner.lift_mm = draws->Uniform(0.0, 60.0);
@@ -103,8 +103,8 @@ Person DrawPerson(PersonDraws* draws) {
   return person;
 }
 
-SimulatedTrial PlanTrial(const CohortOptions& options, const core::Layout& layout, const Person& person,
-                         const Pattern& pattern, double length_s) {
+SimulatedTrial PlanBlockTrial(const CohortOptions& options, const core::Layout& layout,
+                              const BlockPerson& person, const Pattern& pattern, double length_s) {
   SimulatedTrial trial;
   trial.frames = std::max<core::FrameIndex>(2, 1 + std::lround(length_s * options.frame_rate_hz));
   const double last_s = static_cast<double>(trial.frames - 1) / options.frame_rate_hz;
@@ -146,13 +146,13 @@ std::vector<SimulatedTrial> PlanBlockCohort(const CohortOptions& options) {
   std::vector<SimulatedTrial> trials;
   for (int i = 0; i < options.participants; ++i) {
     PersonDraws draws(options.seed, i);
-    const Person person = DrawPerson(&draws);
+    const BlockPerson person = DrawBlockPerson(&draws);
     int order = 0;
     for (const Pattern& pattern : PatternsOf(hybrids[drawn[static_cast<std::size_t>(i)]])) {
       const double length_s = options.seconds * TimesOf(pattern) * person.times *
                               (pattern.condition == kRealSpace ? 1.0 : person.hybrid_times) *
                               Share(&draws, kPatternSd);
-      SimulatedTrial trial = PlanTrial(options, layout, person, pattern, length_s);
+      SimulatedTrial trial = PlanBlockTrial(options, layout, person, pattern, length_s);
       trial.setup.info.participant = CodeOf(i, options.participants);
       trial.setup.info.order = ++order;
       trial.file = fmt::format("{}_{:02}.db", trial.setup.info.participant, order);

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::AlignedBox2d, Eigen::Vector2d, Eigen::Vector3d;
 
-class Randomness {
+class RandomSolids {
  public:
   double Between(double low, double high) { return std::uniform_real_distribution(low, high)(engine_); }
   Vector3d Direction() {
@@ -56,7 +56,7 @@ std::optional<double> HighestByRays(const Solid& solid, const AlignedBox2d& abov
 TEST(HighestPoint, IsThatWhichRaysFromAboveMeet) {
   // A grid of half a millimetre misses the very top of steep solids; a chord of the tube's side misses less.
   constexpr double kGridMissesMm = 2.0, kChordMm = 1e-3;
-  Randomness random;
+  RandomSolids random;
   int above_some = 0;
   for (int trial = 0; trial < 240; ++trial) {
     const Solid solid = random.AnySolid(trial % 4);
