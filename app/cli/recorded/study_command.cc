@@ -19,6 +19,7 @@ namespace {
 struct StudyOptions {
   control::SweepRequest request;  // its range: where --spacing gives one
   bool has_range = false;
+  std::string baseline;  // empty: none
   control::SweepEngine engine = control::SweepEngine::kLocal;
 };
 
@@ -63,7 +64,8 @@ nlohmann::json ComparisonJson(const control::Comparison& comparison) {
           {"in_both", comparison.in_both},
           {"t_pairs", Of(comparison.pairs, &MeanComparison::t)},
           {"df_pairs", Of(comparison.pairs, &MeanComparison::df)},
-          {"p_pairs", Of(comparison.pairs, &MeanComparison::p)}};
+          {"p_pairs", Of(comparison.pairs, &MeanComparison::p)},
+          {"decisive_p", OrNull(comparison.decisive_p)}};
 }
 
 nlohmann::json StudyJson(const control::Study& study) {
@@ -79,11 +81,20 @@ nlohmann::json StudyJson(const control::Study& study) {
       {"shortfall_interval_mm", IntervalJson(study.shortfall_interval_mm)},
       {"shortfall_bootstrap_mm", IntervalJson(study.shortfall_bootstrap_mm)},
       {"confidence", control::kConfidence},
+      {"baseline", study.baseline.empty() ? nlohmann::json() : nlohmann::json(study.baseline)},
       {"notes", study.notes},
       {"cells", study.sweep.cells},
       {"cells_from_before", study.sweep.cells_from_before}};
   json["rows"] = nlohmann::json::array();
   for (const control::StudyRow& row : study.rows) json["rows"].push_back(RowJson(row));
+  json["beyond_baseline"] = nlohmann::json::array();
+  for (const control::BeyondBaseline& row : study.beyond)
+    json["beyond_baseline"].push_back({{"participant", row.participant},
+                                       {"condition", row.condition},
+                                       {"measure", row.measure},
+                                       {"value", row.value},
+                                       {"baseline", row.baseline},
+                                       {"difference", row.difference()}});
   json["comparisons"] = nlohmann::json::array();
   for (const control::Comparison& comparison : study.comparisons)
     json["comparisons"].push_back(ComparisonJson(comparison));
@@ -99,6 +110,19 @@ nlohmann::json StudyJson(const control::Study& study) {
 
 std::string Mm(const std::optional<double>& length_mm) {
   return length_mm ? fmt::format("{:.1f}", *length_mm) : "-";
+}
+
+std::string TextOf(const control::Comparison& c, const std::string& baseline) {
+  std::string text = fmt::format("{}{}: {} {:.2f} (n = {}), {} {:.2f} (n = {})", c.measure,
+                                 baseline.empty() ? "" : fmt::format(" beyond {}", baseline), c.a,
+                                 c.of_a.mean, c.of_a.n, c.b, c.of_b.mean, c.of_b.n);
+  if (c.means)
+    text += fmt::format("; t({:.1f}) = {:.2f}, p = {:.2g}, corrected {:.2g}", c.means->df, c.means->t,
+                        c.means->p, *c.corrected_p);
+  if (c.pairs)
+    text += fmt::format("; in pairs t({:.0f}) = {:.2f}, p = {:.2g}, decisive {:.2g}", c.pairs->df, c.pairs->t,
+                        c.pairs->p, *c.decisive_p);
+  return text + "\n";
 }
 
 std::string TextOf(const control::Study& study) {
@@ -121,14 +145,7 @@ std::string TextOf(const control::Study& study) {
                           study.shortfall_bootstrap_mm->upper);
     text += "\n";
   }
-  for (const control::Comparison& c : study.comparisons) {
-    text += fmt::format("{}: {} {:.2f} (n = {}), {} {:.2f} (n = {})", c.measure, c.a, c.of_a.mean, c.of_a.n,
-                        c.b, c.of_b.mean, c.of_b.n);
-    if (c.means)
-      text += fmt::format("; t({:.1f}) = {:.2f}, p = {:.2g}, corrected {:.2g}", c.means->df, c.means->t,
-                          c.means->p, *c.corrected_p);
-    text += "\n";
-  }
+  for (const control::Comparison& c : study.comparisons) text += TextOf(c, study.baseline);
   for (const std::string& note : study.notes) text += "note: " + note + "\n";
   text.pop_back();
   return text;
@@ -140,7 +157,7 @@ CommandResult Run(const StudyOptions& options, const CommandContext& context) {
     request.range = control::FullRange(request.sessions.front(), request.range.spacing, context.stop);
   CommandResult result;
   result.hint = RunEngine(options.engine, &request, context);
-  const control::Study study = control::MakeStudy(request, context.progress, context.stop);
+  const control::Study study = control::MakeStudy(request, context.progress, context.stop, options.baseline);
   result.json = StudyJson(study);
   result.text = TextOf(study);
   result.json["files"] = nlohmann::json::array();
@@ -167,6 +184,10 @@ void AddStudyCommand(CLI::App& app, Choice* choice) {
       },
       "the gap to study, NAME or NAME=FROM:TO:STEP in mm (default: the layout's only one, over all that it "
       "may be)");
+  command->add_option(
+      "--baseline", options->baseline,
+      "a condition: the others are compared by what each participant has more than in their own "
+      "trials of it");
   command
       ->add_option("--out", options->request.folder,
                    "folder for report.html, report.pdf and the tables participants.csv, sessions.csv, "

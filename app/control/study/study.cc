@@ -1,13 +1,16 @@
 #include "app/control/study/study.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <utility>
 
 #include "core/error.h"
+#include "core/spelling.h"
 #include "core/statistics/bootstrap.h"
 #include "sessions/session_reader.h"
 
@@ -45,8 +48,54 @@ void DropUnansweredNeeds(const std::vector<StudySession>& sessions, std::vector<
   }
 }
 
-std::vector<std::string> NotesOf(const Study& study) {
+void RequireCondition(const std::vector<std::filesystem::path>& sessions, const std::string& baseline,
+                      const std::stop_token& stop) {
+  std::set<std::string> conditions;
+  for (const std::filesystem::path& path : sessions) {
+    core::ThrowIfStopped(stop, "the study");
+    conditions.insert(sessions::SessionReader(path, stop).header().trial.condition);
+  }
+  if (conditions.contains(baseline)) return;
+  conditions.erase("");
+  const std::vector<std::string> names(conditions.begin(), conditions.end());
+  throw core::Error(
+      core::ErrorKind::kRange,
+      fmt::format("--baseline: no session has the condition '{}'; {}", baseline,
+                  names.empty()
+                      ? std::string("none of them has one: set 'condition' in TRIAL.toml")
+                      : core::SpellingAdvice(baseline, names,
+                                             fmt::format("there is '{}'", fmt::join(names, "', '")))));
+}
+
+// Who did another condition and not the baseline, and what else has no counterpart in it.
+std::vector<std::string> BaselineNotes(const Study& study) {
+  std::set<std::string> with, without;
+  for (const StudySession& session : study.sessions)
+    if (session.condition == study.baseline) with.insert(session.participant);
+  for (const StudySession& session : study.sessions)
+    if (!session.condition.empty() && !with.contains(session.participant))
+      without.insert(session.participant);
   std::vector<std::string> notes;
+  if (!without.empty())
+    notes.push_back(
+        fmt::format("{} of {} participants have no trial in the baseline condition '{}' and aren't "
+                    "compared: {}",
+                    without.size(), study.rows.size(), study.baseline, fmt::join(without, ", ")));
+  std::size_t values = 0;
+  for (const auto& [measure, by_condition] : MeansByCondition(study.sessions))
+    for (const auto& [condition, by_participant] : by_condition)
+      for (const auto& [participant, value] : by_participant)
+        values += condition != study.baseline && with.contains(participant) ? 1 : 0;
+  if (values > study.beyond.size())
+    notes.push_back(
+        fmt::format("{} of {} values have no counterpart in the baseline condition '{}' of their "
+                    "participant and aren't compared",
+                    values - study.beyond.size(), values, study.baseline));
+  return notes;
+}
+
+std::vector<std::string> NotesOf(const Study& study) {
+  std::vector<std::string> notes = study.baseline.empty() ? std::vector<std::string>() : BaselineNotes(study);
   const auto count = [&](auto has) { return std::ranges::count_if(study.sessions, has); };
   if (const auto without = count([](const StudySession& session) { return !session.has_code; }); without > 0)
     notes.push_back(
@@ -87,6 +136,10 @@ std::optional<double> StudyRow::shortfall_mm() const {
   return needed_mm && estimate_before_mm ? std::optional(*needed_mm - *estimate_before_mm) : std::nullopt;
 }
 
+bool IsSure(const Comparison& comparison) {
+  return comparison.decisive_p && *comparison.decisive_p < 1.0 - kConfidence;
+}
+
 SpacingRange FullRange(const std::filesystem::path& session, const std::string& name,
                        const std::stop_token& stop) {
   const sessions::SessionReader reader(session, stop);
@@ -108,9 +161,12 @@ SpacingRange FullRange(const std::filesystem::path& session, const std::string& 
   return {spacing.name, spacing.min_mm, spacing.max_mm, std::max(kStepMm, std::ceil(width_mm / kMostSteps))};
 }
 
-Study MakeStudy(const SweepRequest& request, const core::Progress& progress, const std::stop_token& stop) {
+Study MakeStudy(const SweepRequest& request, const core::Progress& progress, const std::stop_token& stop,
+                const std::string& baseline) {
+  if (!baseline.empty()) RequireCondition(request.sessions, baseline, stop);
   Study study;
   study.range = request.range;
+  study.baseline = baseline;
   study.sweep = SweepSpacing(request, progress, stop);
   DwellSum dwell;
   for (const SweptSession& swept : study.sweep.sessions) {
@@ -144,7 +200,12 @@ Study MakeStudy(const SweepRequest& request, const core::Progress& progress, con
     study.shortfall_interval_mm = core::MeanInterval(*study.shortfall_mm, kConfidence);
     study.shortfall_bootstrap_mm = core::BootstrapMean(shortfalls_mm, kConfidence, kSeed);
   }
-  study.comparisons = CompareConditions(study.sessions);
+  study.compared = MeansByCondition(study.sessions);
+  if (!baseline.empty()) {
+    study.beyond = BeyondTheBaseline(study.compared, baseline);
+    study.compared = DifferencesByCondition(study.beyond);
+  }
+  study.comparisons = CompareConditions(study.compared);
   study.correlations = CorrelateWithNeed(study.sessions);
   study.notes = NotesOf(study);
   if (dwell.left_out() > 0)

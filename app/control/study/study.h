@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -35,6 +36,9 @@ struct Study {
   std::optional<core::Summary> shortfall_mm = {};
   std::optional<core::Interval> shortfall_interval_mm = {};   // of the mean, 95 %, if normally distributed
   std::optional<core::Interval> shortfall_bootstrap_mm = {};  // of the mean, 95 %
+  std::string baseline = {};                    // a condition; empty: conditions are compared as they are
+  std::vector<BeyondBaseline> beyond = {};      // of that condition
+  std::map<std::string, ByCondition> compared;  // what is compared: by measure, beyond the baseline if any
   std::vector<Comparison> comparisons;
   std::vector<MeasuresCorrelated> correlations;
   std::vector<PartDwell> dwell;    // of all sessions; by part
@@ -44,6 +48,9 @@ struct Study {
 
 inline constexpr double kConfidence = 0.95;
 
+// Whether a comparison's decisive_p is so small that the difference is no chance, at kConfidence.
+[[nodiscard]] bool IsSure(const Comparison& comparison);
+
 // All that a spacing of the session's layout may be, in steps of 10 mm, or in 60 larger ones. An empty name:
 // the layout's only one. Throws: core::Error{kRange} for a name that it hasn't, and where it has none or
 // several to choose from; what SessionReader throws.
@@ -51,8 +58,9 @@ inline constexpr double kConfidence = 0.95;
                                      const std::stop_token& stop);
 
 // Sweeps all sessions (SweepSpacing), and puts together what their participants estimated and answered.
-// Throws: as SweepSpacing.
+// `baseline`: a condition; what is compared of the others is then what each participant has more than in
+// their own trials of it. Throws: as SweepSpacing; core::Error{kRange} where no session has that condition.
 [[nodiscard]] Study MakeStudy(const SweepRequest& request, const core::Progress& progress,
-                              const std::stop_token& stop);
+                              const std::stop_token& stop, const std::string& baseline = {});
 
 }  // namespace elbowroom::control

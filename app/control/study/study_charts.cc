@@ -147,7 +147,7 @@ void AddConditions(const ByCondition& by_condition, const Axis& axis, const std:
   }
 }
 
-Chart ConditionChart(const std::string& measure, const ByCondition& by_condition) {
+Chart ConditionChart(const std::string& name, const ByCondition& by_condition) {
   Extent extent;
   for (const auto& [condition, by_participant] : by_condition) {
     std::vector<double> values;
@@ -159,7 +159,6 @@ Chart ConditionChart(const std::string& measure, const ByCondition& by_condition
     }
   }
   const auto [from, to] = extent.Rounded();
-  const std::string name = NameOfMeasure(measure);
   Chart chart{fmt::format("{} by condition", name), name, from, to, {}};
   ChartPanel panel;
   panel.height_px = kLaneHeightPx * static_cast<double>(by_condition.size());
@@ -224,10 +223,20 @@ Chart NeedChart(const Study& study) {
 }
 
 std::vector<Chart> ConditionCharts(const Study& study) {
+  // By measure: the smallest decisive p.
+  std::map<std::string, double> surest;
+  for (const Comparison& comparison : study.comparisons) {
+    const double p = comparison.decisive_p.value_or(2.0);  // without a test: after all others
+    const auto [known, is_new] = surest.emplace(comparison.measure, p);
+    if (!is_new) known->second = std::min(known->second, p);
+  }
+  std::vector<std::string> measures;  // by name
+  for (const auto& [measure, p] : surest) measures.push_back(measure);
+  std::ranges::stable_sort(measures, {}, [&](const std::string& measure) { return surest.at(measure); });
+  if (measures.size() > kMostConditionCharts) measures.resize(kMostConditionCharts);
   std::vector<Chart> charts;
-  for (const auto& [measure, by_condition] : MeansByCondition(study.sessions))
-    if (by_condition.size() > 1 && charts.size() < kMostConditionCharts)
-      charts.push_back(ConditionChart(measure, by_condition));
+  for (const std::string& measure : measures)
+    charts.push_back(ConditionChart(NameOfCompared(measure, study.baseline), study.compared.at(measure)));
   return charts;
 }
 

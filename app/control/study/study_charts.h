@@ -19,7 +19,7 @@ namespace elbowroom::control {
 [[nodiscard]] sessions::Chart NeedChart(const Study& study);
 
 // For each measure that several conditions have: the conditions' means with their intervals, and each
-// participant. In the order of the comparisons; at most kMostConditionCharts.
+// participant. The one with the smallest decisive_p first; at most kMostConditionCharts.
 inline constexpr std::size_t kMostConditionCharts = 8;
 [[nodiscard]] std::vector<sessions::Chart> ConditionCharts(const Study& study);
 

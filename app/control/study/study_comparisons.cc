@@ -1,6 +1,7 @@
 #include "app/control/study/study_comparisons.h"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <map>
 
@@ -45,14 +46,22 @@ Comparison Compare(const std::string& measure, const ByCondition::value_type& a,
   return comparison;
 }
 
-void CorrectForSeveral(std::vector<Comparison>* comparisons) {
+// Sets a corrected p of each comparison that has one; all of them are one family.
+void Correct(std::vector<Comparison>* comparisons,
+             const std::function<std::optional<double>(const Comparison&)>& p_of,
+             std::optional<double> Comparison::*corrected_p) {
   std::vector<double> p;
   for (const Comparison& comparison : *comparisons)
-    if (comparison.means) p.push_back(comparison.means->p);
+    if (const auto of = p_of(comparison)) p.push_back(*of);
   const std::vector<double> corrected = core::CorrectForSeveral(p);
   std::size_t next = 0;
   for (Comparison& comparison : *comparisons)
-    if (comparison.means) comparison.corrected_p = corrected[next++];
+    if (p_of(comparison)) comparison.*corrected_p = corrected[next++];
+}
+
+std::optional<double> PairsOrMeans(const Comparison& comparison) {
+  const auto& decides = comparison.pairs ? comparison.pairs : comparison.means;
+  return decides ? std::optional(decides->p) : std::nullopt;
 }
 
 }  // namespace
@@ -70,14 +79,48 @@ std::map<std::string, ByCondition> MeansByCondition(const std::vector<StudySessi
   return by_measure;
 }
 
-std::vector<Comparison> CompareConditions(const std::vector<StudySession>& sessions) {
+std::vector<BeyondBaseline> BeyondTheBaseline(const std::map<std::string, ByCondition>& measures,
+                                              const std::string& baseline) {
+  std::vector<BeyondBaseline> beyond;
+  for (const auto& [measure, by_condition] : measures) {
+    const auto base = by_condition.find(baseline);
+    if (base == by_condition.end()) continue;
+    for (const auto& [condition, by_participant] : by_condition) {
+      if (condition == baseline) continue;
+      for (const auto& [participant, value] : by_participant)
+        if (const auto own = base->second.find(participant); own != base->second.end())
+          beyond.push_back({participant, condition, measure, value, own->second});
+    }
+  }
+  return beyond;
+}
+
+std::map<std::string, ByCondition> DifferencesByCondition(const std::vector<BeyondBaseline>& beyond) {
+  std::map<std::string, ByCondition> by_measure;
+  for (const BeyondBaseline& row : beyond)
+    by_measure[row.measure][row.condition][row.participant] = row.difference();
+  return by_measure;
+}
+
+std::vector<Comparison> CompareConditions(const std::map<std::string, ByCondition>& measures) {
   std::vector<Comparison> comparisons;
-  for (const auto& [measure, by_condition] : MeansByCondition(sessions))
+  for (const auto& [measure, by_condition] : measures)
     for (auto a = by_condition.begin(); a != by_condition.end(); ++a)
       for (auto b = std::next(a); b != by_condition.end(); ++b)
         comparisons.push_back(Compare(measure, *a, *b));
-  CorrectForSeveral(&comparisons);
+  Correct(
+      &comparisons, [](const Comparison& c) { return c.means ? std::optional(c.means->p) : std::nullopt; },
+      &Comparison::corrected_p);
+  Correct(&comparisons, PairsOrMeans, &Comparison::decisive_p);
   return comparisons;
+}
+
+const Comparison* SurestOf(const std::vector<Comparison>& comparisons) {
+  const Comparison* surest = nullptr;
+  for (const Comparison& comparison : comparisons)
+    if (comparison.decisive_p && (surest == nullptr || *comparison.decisive_p < *surest->decisive_p))
+      surest = &comparison;
+  return surest;
 }
 
 std::vector<MeasuresCorrelated> CorrelateWithNeed(const std::vector<StudySession>& sessions) {

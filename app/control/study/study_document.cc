@@ -1,12 +1,14 @@
 #include "app/control/study/study_document.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "app/control/study/study_charts.h"
@@ -43,7 +45,13 @@ std::string TitleOf(const Study& study) {
   const bool is_one_task =
       !task.empty() &&
       std::ranges::all_of(study.sessions, [&](const StudySession& session) { return session.task == task; });
-  return is_one_task ? task : fmt::format("Space at '{}'", study.range.spacing);
+  if (is_one_task) return task;
+  if (study.shortfall_mm || study.comparisons.empty())
+    return fmt::format("Space at '{}'", study.range.spacing);
+  std::set<std::string> conditions;
+  for (const StudySession& session : study.sessions)
+    if (!session.condition.empty()) conditions.insert(session.condition);
+  return fmt::format("Conditions compared: {}", fmt::join(conditions, ", "));
 }
 
 std::vector<std::string> FactsOf(const Study& study) {
@@ -56,13 +64,32 @@ std::vector<std::string> FactsOf(const Study& study) {
       fmt::format("gap {}, {:g} to {:g} mm", study.range.spacing, study.range.from_mm, study.range.to_mm)};
 }
 
+// Of a study without estimates: whether its conditions differ.
+Verdict ConditionVerdict(const Study& study) {
+  const Comparison* surest = SurestOf(study.comparisons);
+  if (surest == nullptr)
+    return {
+        Verdict::Outcome::kDoubtful,
+        {"No participant has an estimate and a need that is known, and no two conditions can be compared: "
+         "there is nothing to hold against each other."}};
+  const auto differ = std::ranges::count_if(study.comparisons, IsSure);
+  const std::string surest_of = study.comparisons.size() > 1
+                                    ? fmt::format(" (the surest of {} comparisons)", study.comparisons.size())
+                                    : std::string();
+  const std::string what =
+      fmt::format("'{}' against '{}', {}: {} against {} on average, {}{}.", surest->a, surest->b,
+                  NameOfCompared(surest->measure, study.baseline), NumberText(surest->of_a.mean),
+                  NumberText(surest->of_b.mean), PText(*surest->decisive_p), surest_of);
+  return {Verdict::Outcome::kDoubtful,
+          {differ == 0 ? "No difference between conditions is sure; what was found may be chance. " + what
+                       : fmt::format("Conditions differ, in {} of {}. {}", differ,
+                                     CountText(study.comparisons.size(), "comparison"), what)}};
+}
+
 // Who allocated too little, in one sentence, and whether that can be chance.
 Verdict VerdictOf(const Study& study) {
   using Outcome = Verdict::Outcome;
-  if (!study.shortfall_mm)
-    return {Outcome::kDoubtful,
-            {"No participant has an estimate and a need that is known: there is nothing to hold against each "
-             "other."}};
+  if (!study.shortfall_mm) return ConditionVerdict(study);
   const core::Summary& shortfall = *study.shortfall_mm;
   const bool is_short = shortfall.mean > 0.0;
   const std::string how_much = fmt::format("{} mm {}", LengthText(std::abs(shortfall.mean)),
@@ -169,10 +196,17 @@ Section ConditionSection(const Study& study, ChartPainters* painters) {
   Section section{
       .blocks = {Heading{"Conditions compared"},
                  Paragraph{"t and p: Welch's test, two-tailed; corrected by Holm over all rows. p of ranks: "
-                           "Mann and Whitney's test. p of pairs: where the same participants did both. Rows "
-                           "whose corrected p is below 0.05 are marked.",
-                           true},
-                 ComparisonTable(study)}};
+                           "Mann and Whitney's test. p of pairs: where the same participants did both. The "
+                           "decisive p is that of pairs where there is one, else Welch's, corrected by Holm "
+                           "over all rows; rows in which it is below 0.05 are marked.",
+                           true}}};
+  if (!study.baseline.empty())
+    section.blocks.push_back(Paragraph{
+        fmt::format("Each value is what a participant's trials in a condition have more than the same "
+                    "participant's trials in the baseline condition '{}'.",
+                    study.baseline),
+        true});
+  section.blocks.push_back(ComparisonTable(study));
   std::vector<sessions::Chart> charts = ConditionCharts(study);
   if (!charts.empty())
     section.blocks.push_back(Paragraph{
@@ -237,9 +271,10 @@ Document StudyDocument(const Study& study, const std::vector<DwellPicture>& dwel
   document.kicker = "Elbowroom study report";
   document.title = TitleOf(study);
   document.facts = FactsOf(study);
-  document.footer =
-      "Beside this page: report.pdf (the same to print), participants.csv, sessions.csv and comparisons.csv "
-      "(all figures with all digits).";
+  document.footer = fmt::format(
+      "Beside this page: report.pdf (the same to print), participants.csv, sessions.csv{} and "
+      "comparisons.csv (all figures with all digits).",
+      study.baseline.empty() ? "" : ", baseline.csv");
   document.source = fmt::format("{}; gap {}, {:g} to {:g} mm", CountText(study.sessions.size(), "session"),
                                 study.range.spacing, study.range.from_mm, study.range.to_mm);
   document.made_at_utc =

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -48,20 +49,30 @@ std::string SessionsCsv(const Study& study) {
 std::string ComparisonsCsv(const Study& study) {
   std::string csv =
       "measure,a,b,n_a,n_b,mean_a,mean_b,sd_a,sd_b,t,df,p,corrected_p,effect_size,u,p_ranks,in_both,t_pairs,"
-      "df_pairs,p_pairs\n";
+      "df_pairs,p_pairs,decisive_p,baseline\n";
   for (const Comparison& c : study.comparisons) {
     const auto of = [](const auto& result, auto member) {
       return result ? Field((*result).*member) : std::string();
     };
     using core::MeanComparison, core::RankSumTest;
     csv += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", sessions::Quoted(c.measure),
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", sessions::Quoted(c.measure),
         sessions::Quoted(c.a), sessions::Quoted(c.b), c.of_a.n, c.of_b.n, c.of_a.mean, c.of_b.mean,
         Field(c.of_a.sd), Field(c.of_b.sd), of(c.means, &MeanComparison::t), of(c.means, &MeanComparison::df),
         of(c.means, &MeanComparison::p), Field(c.corrected_p), Field(c.effect_size),
         of(c.ranks, &RankSumTest::u), of(c.ranks, &RankSumTest::p), c.in_both,
-        of(c.pairs, &MeanComparison::t), of(c.pairs, &MeanComparison::df), of(c.pairs, &MeanComparison::p));
+        of(c.pairs, &MeanComparison::t), of(c.pairs, &MeanComparison::df), of(c.pairs, &MeanComparison::p),
+        Field(c.decisive_p), sessions::Quoted(study.baseline));
   }
+  return csv;
+}
+
+std::string BaselineCsv(const Study& study) {
+  std::string csv = "participant,condition,measure,value,baseline,difference\n";
+  for (const BeyondBaseline& row : study.beyond)
+    csv +=
+        fmt::format("{},{},{},{},{},{}\n", sessions::Quoted(row.participant), sessions::Quoted(row.condition),
+                    sessions::Quoted(row.measure), row.value, row.baseline, row.difference());
   return csv;
 }
 
@@ -70,11 +81,13 @@ std::string ComparisonsCsv(const Study& study) {
 std::vector<std::filesystem::path> WriteStudy(const Study& study, const std::filesystem::path& folder,
                                               const core::Progress& progress, const std::stop_token& stop) {
   sessions::PageAndPdf report = MakeStudyReport(study, progress, stop);
-  return sessions::WriteWholeFiles(folder, {{"participants.csv", ParticipantsCsv(study)},
-                                            {"sessions.csv", SessionsCsv(study)},
-                                            {"comparisons.csv", ComparisonsCsv(study)},
-                                            {"report.html", std::move(report.html)},
-                                            {"report.pdf", std::move(report.pdf)}});
+  std::map<std::string, std::string> files = {{"participants.csv", ParticipantsCsv(study)},
+                                              {"sessions.csv", SessionsCsv(study)},
+                                              {"comparisons.csv", ComparisonsCsv(study)},
+                                              {"report.html", std::move(report.html)},
+                                              {"report.pdf", std::move(report.pdf)}};
+  if (!study.baseline.empty()) files["baseline.csv"] = BaselineCsv(study);
+  return sessions::WriteWholeFiles(folder, files);
 }
 
 }  // namespace elbowroom::control

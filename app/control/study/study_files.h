@@ -1,4 +1,5 @@
-// The files of a study: participants.csv, sessions.csv, comparisons.csv, report.html and report.pdf.
+// The files of a study: participants.csv, sessions.csv, comparisons.csv, report.html and report.pdf; with a
+// baseline, baseline.csv.
 #pragma once
 
 #include <filesystem>

@@ -67,7 +67,6 @@ RichText TestText(const std::optional<core::MeanComparison>& test) {
 }
 
 DocumentRow ComparisonRow(const Comparison& comparison) {
-  constexpr double kSmall = 1.0 - kConfidence;
   const auto p_of = [](const auto& test) { return test ? ProbabilityText(test->p) : std::string(kNoFigure); };
   DocumentRow row{
       {GroupText(comparison.a, comparison.of_a), GroupText(comparison.b, comparison.of_b),
@@ -79,8 +78,9 @@ DocumentRow ComparisonRow(const Comparison& comparison) {
        comparison.ranks ? WithRemark(p_of(comparison.ranks), fmt::format("U = {:g}", comparison.ranks->u))
                         : kNoFigure,
        comparison.pairs ? WithRemark(p_of(comparison.pairs), fmt::format("t = {:.2f}", comparison.pairs->t))
-                        : kNoFigure}};
-  row.is_highlighted = comparison.corrected_p && *comparison.corrected_p < kSmall;
+                        : kNoFigure,
+       comparison.decisive_p ? ProbabilityText(*comparison.decisive_p) : kNoFigure}};
+  row.is_highlighted = IsSure(comparison);
   return row;
 }
 
@@ -122,13 +122,14 @@ DocumentTable ComparisonTable(const Study& study) {
                        {"p", true},
                        {"Hedges' g", true},
                        {"p of ranks", true},
-                       {"p of pairs", true}},
+                       {"p of pairs", true},
+                       {"decisive p", true}},
                       {}};
   std::string measure;
   for (const Comparison& comparison : study.comparisons) {
     if (measure != comparison.measure) {
       measure = comparison.measure;
-      DocumentRow head{{RichText(NameOfMeasure(measure))}};
+      DocumentRow head{{RichText(NameOfCompared(measure, study.baseline))}};
       head.begins_group = true;
       table.rows.push_back(std::move(head));
     }

@@ -10,7 +10,7 @@ namespace elbowroom::control {
 // EstimateChart's.
 [[nodiscard]] sessions::DocumentTable ParticipantTable(const Study& study);
 
-// A group of rows for each measure, a row for each two conditions; highlighted where corrected_p is small.
+// A group of rows for each measure, a row for each two conditions; highlighted where decisive_p is small.
 [[nodiscard]] sessions::DocumentTable ComparisonTable(const Study& study);
 
 [[nodiscard]] sessions::DocumentTable CorrelationTable(const Study& study);

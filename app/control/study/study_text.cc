@@ -20,6 +20,11 @@ std::string NameOfMeasure(const std::string& measure) {
   return measure;
 }
 
+std::string NameOfCompared(const std::string& measure, const std::string& baseline) {
+  const std::string name = NameOfMeasure(measure);
+  return baseline.empty() ? name : fmt::format("{}, beyond '{}'", name, baseline);
+}
+
 std::string LengthText(double length_mm) {
   constexpr double kShownAsZero = 0.05;
   return fmt::format("{:.1f}", std::abs(length_mm) < kShownAsZero ? 0.0 : length_mm);
@@ -43,6 +48,11 @@ std::string NumberText(const std::optional<double>& number) {
 std::string ProbabilityText(double p) {
   constexpr double kSmallest = 0.001;
   return p < kSmallest ? "< 0.001" : fmt::format("{:.3f}", p);
+}
+
+std::string PText(double p) {
+  const std::string value = ProbabilityText(p);
+  return value.starts_with('<') ? "p " + value : "p = " + value;
 }
 
 std::string CountText(std::size_t count, const char* what) {

@@ -1,6 +1,7 @@
 // Table 3 of a simulated cohort whose truth is known, and its conditions compared.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -41,6 +42,16 @@ struct Sample {
     error2 = sd * sd / n;
   }
 };
+
+// Holm's, from its definition: the largest of the multiples of all p that are no larger.
+double Holm(const std::vector<double>& p, std::size_t of) {
+  std::vector<double> sorted = p;
+  std::sort(sorted.begin(), sorted.end());
+  double corrected = 0.0;
+  for (std::size_t i = 0; i < sorted.size() && sorted[i] <= p[of]; ++i)
+    corrected = std::max(corrected, std::min(1.0, sorted[i] * static_cast<double>(sorted.size() - i)));
+  return corrected;
+}
 
 class StudyCohort : public testing::Test {
  protected:
@@ -157,11 +168,68 @@ TEST_F(StudyCohort, TheSamePeopleInBothConditionsArePairs) {
   EXPECT_EQ(study["sessions"], 6);
   EXPECT_EQ(study["rows"][1]["estimate_before_mm"], 100.0) << "of the first trial";
   EXPECT_EQ(study["rows"][1]["estimate_after_mm"], 151.0) << "of the last";
+  std::vector<double> deciding, decisive;
   for (const auto& comparison : study["comparisons"]) {
+    const auto& p = comparison["p_pairs"].is_null() ? comparison["p"] : comparison["p_pairs"];
+    EXPECT_EQ(p.is_null(), comparison["decisive_p"].is_null());
+    if (p.is_null()) continue;
+    deciding.push_back(p);
+    decisive.push_back(comparison["decisive_p"]);
     if (comparison["measure"] != "needed_mm") continue;
     EXPECT_EQ(comparison["in_both"], 3);
     EXPECT_LT(comparison["p_pairs"].get<double>(), comparison["p"].get<double>()) << "the sharper question";
+    EXPECT_LT(comparison["decisive_p"].get<double>(), comparison["corrected_p"].get<double>());
   }
+  ASSERT_GE(deciding.size(), 2U);
+  for (std::size_t i = 0; i < deciding.size(); ++i) EXPECT_NEAR(decisive[i], Holm(deciding, i), 1e-12);
+}
+
+TEST_F(StudyCohort, ConditionsAreComparedBeyondEachParticipantsBaseline) {
+  const std::vector<double> own_mm{80.0, 100.0, 92.0, 86.0, 97.0, 105.0},
+      more_mm{9.0, 12.0, 7.0, 16.0, 21.0, 18.0};
+  for (std::size_t i = 0; i < own_mm.size(); ++i) {
+    const std::string code = "P" + std::to_string(i);
+    Record({code, "real", 1, 100.0, 0.0, own_mm[i]});
+    Record({code, i < 3 ? "generic" : "faithful", 2, 0.0, 0.0, own_mm[i] + more_mm[i]});
+  }
+  Record({"P9", "generic", 1, 100.0, 0.0, 200.0});  // without the baseline
+  const nlohmann::json study = Study({"--baseline", "real"});
+  EXPECT_EQ(study["baseline"], "real");
+  std::map<std::string, std::vector<double>> beyond_mm;  // by condition
+  for (const auto& row : study["beyond_baseline"]) {
+    EXPECT_NE(row["participant"], "P9");
+    EXPECT_NE(row["condition"], "real");
+    EXPECT_DOUBLE_EQ(row["difference"].get<double>(),
+                     row["value"].get<double>() - row["baseline"].get<double>());
+    if (row["measure"] == "needed_mm") beyond_mm[row["condition"]].push_back(row["difference"]);
+  }
+  ASSERT_EQ(beyond_mm["generic"].size(), 3U);
+  ASSERT_EQ(beyond_mm["faithful"].size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(beyond_mm["generic"][i], more_mm[i], 2.0 * (kToleranceMm + kOpenMm));
+    EXPECT_NEAR(beyond_mm["faithful"][i], more_mm[i + 3], 2.0 * (kToleranceMm + kOpenMm));
+  }
+  const Sample a(beyond_mm["faithful"]), b(beyond_mm["generic"]);
+  int compared = 0;
+  for (const auto& comparison : study["comparisons"]) {
+    EXPECT_NE(comparison["a"], "real");
+    EXPECT_NE(comparison["b"], "real");
+    if (comparison["measure"] != "needed_mm") continue;
+    ++compared;
+    EXPECT_EQ(comparison["n_a"], 3);
+    EXPECT_NEAR(comparison["mean_a"].get<double>(), a.mean, 1e-9);
+    EXPECT_NEAR(comparison["t"].get<double>(), (a.mean - b.mean) / std::sqrt(a.error2 + b.error2), 1e-9);
+  }
+  EXPECT_EQ(compared, 1);
+  bool says_who = false;
+  for (const auto& note : study["notes"])
+    says_who =
+        says_who ||
+        note == "1 of 7 participants have no trial in the baseline condition 'real' and aren't compared: P9";
+  EXPECT_TRUE(says_who) << study["notes"].dump();
+  const std::string csv = test_support::ReadText(folder_ / "out/baseline.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+            1 + study["beyond_baseline"].size());
 }
 
 }  // namespace

@@ -36,6 +36,11 @@ TEST_F(StudyCommand, SaysWhatIsWrongInOneLineAndLeavesNothing) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
   }
+  const ProgramRun baseline = Study({"--baseline", "bar"});
+  EXPECT_EQ(baseline.exit_status, 1);
+  EXPECT_EQ(std::count(baseline.err.begin(), baseline.err.end(), '\n'), 1) << baseline.err;
+  EXPECT_NE(baseline.err.find("no session has the condition 'bar'; did you mean 'bare'?"), std::string::npos)
+      << baseline.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out/participants.csv"));
 }
 

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/control/study/study.h"
+#include "app/control/study/study_charts.h"
+#include "app/control/study/study_document.h"
 #include "app/control/study/study_files.h"
 #include "core/error.h"
 #include "sessions/session_reader.h"
@@ -114,6 +116,41 @@ TEST_F(StudyOfTwoConditions, StoppedItLeavesWhatWasThere) {
   EXPECT_THROW((void)control::WriteStudy(study, folder_ / "out", {}, stop.get_token()), core::Error);
   EXPECT_FALSE(fs::exists(folder_ / "out/participants.csv"));
   EXPECT_FALSE(fs::exists(folder_ / "out/report.html"));
+}
+
+class StudyWithoutEstimates : public StudyReportTest {
+ protected:
+  // How long the step takes differs surely, the space needed hardly.
+  void SetUp() override {
+    for (int person = 0; person < 8; ++person) {
+      const bool is_gloved = person % 2 == 1;
+      Record(fmt::format("{}.db", person),
+             {fmt::format("P{}", person), is_gloved ? "gloved" : "bare", 1, 0.0, 0.0,
+              100.0 + 5.0 * (person / 2), 0.0, (is_gloved ? 0.8 : 0.2) + 0.02 * person});
+    }
+  }
+  [[nodiscard]] std::string VerdictOf(const Study& study) const {
+    sessions::ChartPainters painters;
+    const sessions::Document document = control::StudyDocument(study, {}, &painters);
+    return std::get<sessions::Verdict>(document.sections.front().blocks.front()).paragraphs.front();
+  }
+};
+
+TEST_F(StudyWithoutEstimates, ItsVerdictIsAboutTheConditions) {
+  const std::string verdict = VerdictOf(Make());
+  for (const char* word :
+       {"Conditions differ, in 1 of ", "'bare' against 'gloved', step 'reach in', s: 0.26 against 0.88"})
+    EXPECT_NE(verdict.find(word), std::string::npos) << word << " in: " << verdict;
+  Study none = Make();
+  none.comparisons.clear();
+  EXPECT_NE(VerdictOf(none).find("no two conditions can be compared"), std::string::npos) << VerdictOf(none);
+}
+
+TEST_F(StudyWithoutEstimates, TheSurestDifferenceIsDrawnFirst) {
+  const Study study = Make();
+  const auto charts = control::ConditionCharts(study);
+  ASSERT_GE(charts.size(), 2U);
+  EXPECT_EQ(charts.front().x_name, "step 'reach in', s");
 }
 
 TEST_F(StudyReportTest, OneSessionWithoutACodeIsAReport) {
