@@ -81,15 +81,15 @@ TEST(Cli, HelpNamesWhatIsBuilt) {
   EXPECT_EQ(run.exit_status, 0);
   for (const char* command : {"demo",      "trial",  "report",  "segment",  "view",   "hull",  "contacts",
                               "clearance", "clash",  "sweep",   "import",   "layout", "board", "bench",
-                              "keepout",   "replay", "touches", "sessions", "study",  "plan"}) {
+                              "keepout",   "replay", "touches", "sessions", "study",  "plan",  "simulate"}) {
     EXPECT_NE(run.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
   }
 }
 
 TEST(Cli, EveryCommandHasHelp) {
-  for (const char* command :
-       {"demo", "report", "segment", "view", "hull", "contacts", "clearance", "clash", "sweep", "import",
-        "layout", "board", "bench", "keepout", "replay", "touches", "sessions", "study", "plan"}) {
+  for (const char* command : {"demo",   "report",  "segment",  "view",   "hull",  "contacts", "clearance",
+                              "clash",  "sweep",   "import",   "layout", "board", "bench",    "keepout",
+                              "replay", "touches", "sessions", "study",  "plan",  "simulate"}) {
     EXPECT_EQ(Elbowroom({command, "--help"}).exit_status, 0) << command;
   }
   EXPECT_EQ(Elbowroom({"trial", "run", "--help"}).exit_status, 0);
