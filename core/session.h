@@ -17,15 +17,13 @@
 #include "core/ids.h"
 #include "core/layout.h"
 #include "core/picture_loss.h"
+#include "core/questionnaire.h"
 #include "core/rig.h"
 #include "core/rig_quality.h"
 #include "core/rigid_transform.h"
 #include "core/soft_mask.h"
 
 namespace elbowroom::core {
-
-// Whether participants are asked before the first frame or after the last one.
-enum class AskedWhen { kBefore, kAfter };
 
 inline constexpr int kWidestScale = 1000;  // no end of a scale is farther from 0
 
@@ -53,6 +51,8 @@ struct TrialInfo {
   int order = 0;                        // the trial is the participant's first, second, ...; 0: not given
   std::vector<std::string> steps = {};  // of the procedure, in order; their names differ
   std::vector<SurveyItem> survey = {};
+  std::vector<Questionnaire> questionnaires = {};
+  std::string block = {};  // to which part of a study the trial belongs: "practice"; empty: none
 };
 
 struct SpacingChanged {
@@ -91,8 +91,15 @@ struct SurveyAnswered {
   int answer = 0;    // on its scale
   [[nodiscard]] bool operator==(const SurveyAnswered&) const = default;
 };
-using EventContent =
-    std::variant<SpacingChanged, ToolMarked, Note, StepMarked, Bookmark, EstimateGiven, SurveyAnswered>;
+struct QuestionnaireAnswered {
+  AskedWhen when = AskedWhen::kAfter;
+  std::string questionnaire;  // with `when` one of the trial's
+  std::string item;           // the id of one of its items
+  ItemAnswer answer;          // one that the item can have
+  [[nodiscard]] bool operator==(const QuestionnaireAnswered&) const = default;
+};
+using EventContent = std::variant<SpacingChanged, ToolMarked, Note, StepMarked, Bookmark, EstimateGiven,
+                                  SurveyAnswered, QuestionnaireAnswered>;
 
 // The change holds from frame `frame` on: one that arrives between two frames has the number of the later.
 struct SessionEvent {

@@ -11,6 +11,7 @@
 #include "sessions/database/statement.h"
 #include "sessions/layout_rows.h"
 #include "sessions/packing.h"
+#include "sessions/questionnaire_rows.h"
 #include "sessions/rig_quality_rows.h"
 #include "sessions/rig_rows.h"
 #include "sessions/row_rules.h"
@@ -29,15 +30,16 @@ void InsertSessionRow(Database& database, const core::SessionHeader& header) {
       "INSERT INTO session (id, status, started_at_utc, participant, task, estimate_mm, "
       "required_clearance_mm, rig_name, workspace_min_x_mm, workspace_min_y_mm, workspace_min_z_mm, "
       "workspace_max_x_mm, workspace_max_y_mm, workspace_max_z_mm, unseen, layout_unit, uncertainty_mm, "
-      "condition, "
-      "trial_order) VALUES (1, 'recording', ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+      "condition, trial_order, block) "
+      "VALUES (1, 'recording', ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   const core::TrialInfo& trial = header.trial;
   const core::Rig& rig = header.rig;
   insert
       .With(header.started_at_utc, trial.participant, trial.task, trial.estimate_mm,
             trial.required_clearance_mm, rig.name, rig.workspace_mm.min(), rig.workspace_mm.max(),
             rig.unseen == core::UnseenPolicy::kAbstain ? "abstain" : "outside",
-            core::ToString(header.layout.unit), trial.uncertainty_mm, trial.condition, trial.order)
+            core::ToString(header.layout.unit), trial.uncertainty_mm, trial.condition, trial.order,
+            trial.block)
       .Run();
 }
 
@@ -46,7 +48,8 @@ void ReadSessionRow(Database& database, core::SessionHeader& header) {
       database,
       "SELECT started_at_utc, participant, task, estimate_mm, required_clearance_mm, rig_name, unseen, "
       "layout_unit, workspace_min_x_mm, workspace_min_y_mm, workspace_min_z_mm, workspace_max_x_mm, "
-      "workspace_max_y_mm, workspace_max_z_mm, uncertainty_mm, condition, trial_order FROM session");
+      "workspace_max_y_mm, workspace_max_z_mm, uncertainty_mm, condition, trial_order, block "
+      "FROM session");
   if (!row.Next()) {
     throw core::Error(
         core::ErrorKind::kFormat,
@@ -64,6 +67,7 @@ void ReadSessionRow(Database& database, core::SessionHeader& header) {
   header.trial.uncertainty_mm = Magnitude(row.Real(14), where, "the uncertainty");
   header.trial.condition = row.Text(15);
   header.trial.order = static_cast<int>(IndexBelow(row.Integer(16), kOrderLimit, where, "the trial's order"));
+  header.trial.block = row.Text(17);
   header.rig.workspace_mm = Eigen::AlignedBox3d(row.Vector(8), row.Vector(11));
   (void)Position(header.rig.workspace_mm.min(), where, "its workspace");
   (void)Position(header.rig.workspace_mm.max(), where, "its workspace");
@@ -138,6 +142,7 @@ void InsertHeader(Database& database, const core::SessionHeader& header) {
   for (std::size_t i = 0; i < header.trial.tools.size(); ++i)
     insert_tool.With(i, header.trial.tools[i]).Run();
   InsertProcedure(database, header.trial);
+  InsertQuestionnaires(database, header.trial.questionnaires);
   InsertCameras(database, header.rig.cameras);
   InsertRigQuality(database, header.rig_quality);
   InsertLayout(database, header.layout);
@@ -154,6 +159,7 @@ core::SessionHeader ReadHeader(Database& database) {
   Statement tools(database, "SELECT name FROM tool ORDER BY tool_index");
   while (tools.Next()) header.trial.tools.push_back(tools.Text(0));
   ReadProcedure(database, header.trial);
+  header.trial.questionnaires = ReadQuestionnaires(database);
   header.rig.cameras = ReadCameras(database);
   if (header.rig.cameras.empty())
     FailAsDamaged(fmt::format("session '{}'", database.path().string()), "it has no camera");

@@ -38,16 +38,18 @@ INSERT OR IGNORE INTO main.episode_spacing SELECT * FROM spill.episode_spacing;
 INSERT OR IGNORE INTO main.near_miss SELECT * FROM spill.near_miss;
 INSERT OR IGNORE INTO main.heat_map SELECT * FROM spill.heat_map;
 INSERT INTO main.event (frame_index, time_s, kind, spacing_index, from_mm, to_mm, tool, in_use, note, step_index,
-    begun, bookmark, asked, estimate_mm, item_index, answer)
+    begun, bookmark, asked, estimate_mm, item_index, answer, question_index, answer_number, answer_text)
   SELECT frame_index, time_s, kind, spacing_index, from_mm, to_mm, tool, in_use, note, step_index,
-    begun, bookmark, asked, estimate_mm, item_index, answer FROM spill.event AS new
+    begun, bookmark, asked, estimate_mm, item_index, answer, question_index, answer_number, answer_text
+  FROM spill.event AS new
   WHERE NOT EXISTS (
     SELECT 1 FROM main.event AS old WHERE old.frame_index = new.frame_index AND old.time_s = new.time_s
       AND old.kind = new.kind AND old.spacing_index IS new.spacing_index AND old.from_mm IS new.from_mm
       AND old.to_mm IS new.to_mm AND old.tool IS new.tool AND old.in_use IS new.in_use AND old.note IS new.note
       AND old.step_index IS new.step_index AND old.begun IS new.begun AND old.bookmark IS new.bookmark
       AND old.asked IS new.asked AND old.estimate_mm IS new.estimate_mm AND old.item_index IS new.item_index
-      AND old.answer IS new.answer)
+      AND old.answer IS new.answer AND old.question_index IS new.question_index
+      AND old.answer_number IS new.answer_number AND old.answer_text IS new.answer_text)
   ORDER BY event_id;
 INSERT OR IGNORE INTO main.absent_finding SELECT * FROM spill.absent_finding;
 INSERT OR IGNORE INTO main.remark SELECT * FROM spill.remark;

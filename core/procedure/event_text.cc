@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/procedure/answers.h"
+#include "core/procedure/scores.h"
 
 namespace elbowroom::core {
 namespace {
@@ -16,6 +17,7 @@ struct KindWord {
   std::string_view operator()(const Bookmark& /*bookmark*/) const { return "bookmark"; }
   std::string_view operator()(const EstimateGiven& /*given*/) const { return "estimate"; }
   std::string_view operator()(const SurveyAnswered& /*answered*/) const { return "answer"; }
+  std::string_view operator()(const QuestionnaireAnswered& /*answered*/) const { return "questionnaire"; }
 };
 
 struct Words {
@@ -37,6 +39,10 @@ struct Words {
   }
   std::string operator()(const SurveyAnswered& answered) const {
     return fmt::format("{} the trial, '{}': {}", ToString(answered.when), answered.item, answered.answer);
+  }
+  std::string operator()(const QuestionnaireAnswered& answered) const {
+    return fmt::format("{} the trial, {}, '{}': {}", ToString(answered.when), answered.questionnaire,
+                       answered.item, TextOf(answered.answer));
   }
 };
 

@@ -9,7 +9,7 @@
 namespace elbowroom::core {
 
 // The words by which tables and tooltips call it: "spacing", "tool", "note", "step", "bookmark", "estimate",
-// "answer".
+// "answer", "questionnaire".
 [[nodiscard]] std::string_view KindOf(const EventContent& what);
 
 // In English, without time and frame: "PMT to A from 140 to 150 mm", "tongs taken in use", "step 'screw the

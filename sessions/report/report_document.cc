@@ -16,6 +16,7 @@ std::vector<std::string> FactsOf(const ReportData& data) {
   if (!data.header.trial.participant.empty()) facts.push_back("participant " + data.header.trial.participant);
   if (!data.header.trial.condition.empty()) facts.push_back("condition " + data.header.trial.condition);
   if (data.header.trial.order > 0) facts.push_back(fmt::format("trial {}", data.header.trial.order));
+  if (!data.header.trial.block.empty()) facts.push_back("block " + data.header.trial.block);
   facts.push_back("started " + data.header.started_at_utc);
   facts.push_back(fmt::format("{} frames over {:.1f} s", data.frames.size(), data.end_s - data.begin_s));
   facts.push_back(fmt::format("rig {}, {} camera{}", data.header.rig.name, data.header.rig.cameras.size(),

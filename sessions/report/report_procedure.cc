@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/procedure/answers.h"
+#include "core/procedure/scores.h"
 #include "core/procedure/step_runs.h"
 #include "sessions/report/report_document.h"
 #include "sessions/report/verdict_text.h"
@@ -53,12 +54,45 @@ void AddAnswers(const ReportData& data, std::vector<Block>* blocks) {
   if (!table.rows.empty()) blocks->push_back(std::move(table));
 }
 
+std::string NumberText(double number) { return fmt::format("{:.4g}", number); }
+
+std::string AsAsked(const core::QuestionnaireItem& item) {
+  std::string asked(core::ToString(item.kind));
+  if (item.kind == core::ItemKind::kScale) asked = fmt::format("{:g} to {:g}", item.least, item.most);
+  return asked + (item.reversed ? ", reversed" : "");
+}
+
+// Scores first: they are what the questionnaire was made for.
+void AddQuestionnaire(const ReportData& data, const core::Questionnaire& questionnaire,
+                      std::vector<Block>* blocks) {
+  const core::ItemAnswers answers = core::AnswersOf(questionnaire, data.events);
+  const std::string when(core::ToString(questionnaire.when));
+  DocumentTable scores{{{"Score"}, {"When"}, {"Rule"}, {"Value", true}}, {}};
+  for (const core::Score& score : questionnaire.scores) {
+    const auto value = core::ScoreOf(questionnaire, score, answers);
+    scores.rows.push_back({{NameText(fmt::format("{}: {}", questionnaire.name, score.name)), when,
+                            std::string(core::ToString(score.rule)), value ? NumberText(*value) : kNothing}});
+  }
+  if (!scores.rows.empty()) blocks->push_back(std::move(scores));
+  DocumentTable table{{{"Questionnaire"}, {"When"}, {"Asked as"}, {"Answer"}, {"Counts as", true}}, {}};
+  for (std::size_t i = 0; i < questionnaire.items.size(); ++i) {
+    const core::QuestionnaireItem& item = questionnaire.items[i];
+    const auto value = answers[i] ? core::ValueOf(item, *answers[i]) : std::nullopt;
+    table.rows.push_back({{NameText(fmt::format("{}: {}", questionnaire.name, item.text)), when,
+                           AsAsked(item), answers[i] ? NameText(core::TextOf(*answers[i])) : kNothing,
+                           value ? NumberText(*value) : kNothing}});
+  }
+  blocks->push_back(std::move(table));
+}
+
 }  // namespace
 
 Section ProcedureSection(const ReportData& data) {
   Section section{.id = "procedure", .blocks = {}};
   AddSteps(data, &section.blocks);
   AddAnswers(data, &section.blocks);
+  for (const core::Questionnaire& questionnaire : data.header.trial.questionnaires)
+    AddQuestionnaire(data, questionnaire, &section.blocks);
   if (!section.blocks.empty())
     section.blocks.insert(section.blocks.begin(), Heading{"Procedure and participant"});
   return section;

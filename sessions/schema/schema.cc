@@ -16,8 +16,8 @@ using core::ErrorKind;
 // Entry i leads from schema i to schema i + 1. An entry that has been released never changes.
 using Migration = std::string (*)();
 constexpr std::array<Migration, kSchemaVersion> kMigrations = {
-    &Schema1Sql, &Schema2Sql, &Schema3Sql, &Schema4Sql, &Schema5Sql,
-    &Schema6Sql, &Schema7Sql, &Schema8Sql, &Schema9Sql, &Schema10Sql};
+    &Schema1Sql, &Schema2Sql, &Schema3Sql, &Schema4Sql,  &Schema5Sql, &Schema6Sql,
+    &Schema7Sql, &Schema8Sql, &Schema9Sql, &Schema10Sql, &Schema11Sql};
 
 }  // namespace
 

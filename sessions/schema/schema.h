@@ -10,7 +10,7 @@ namespace elbowroom::sessions {
 
 inline constexpr std::int64_t kApplicationId = 0x456C6277;        // "Elbw" in the file's header
 inline constexpr std::int64_t kMergedApplicationId = 0x456C6273;  // "Elbs": several sessions in one file
-inline constexpr std::int64_t kSchemaVersion = 10;
+inline constexpr std::int64_t kSchemaVersion = 11;
 
 // The SQL that leads from schema 0, an empty file, to schema 1.
 [[nodiscard]] std::string Schema1Sql();
@@ -45,6 +45,9 @@ inline constexpr std::int64_t kSchemaVersion = 10;
 // From schema 9 to schema 10: condition and order of a trial; the steps of its procedure, bookmarks,
 // estimates and answers of the participant.
 [[nodiscard]] std::string Schema10Sql();
+
+// From schema 10 to schema 11: a trial's block; questionnaires with their questions, scores and answers.
+[[nodiscard]] std::string Schema11Sql();
 
 // Brings the open transaction's database to kSchemaVersion by the migrations that it lacks, in order.
 void Migrate(Database& database);

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/procedure/answers.h"
+#include "core/procedure/scores.h"
 #include "core/procedure/step_runs.h"
 #include "sessions/session_reader.h"
 #include "sessions/session_writer.h"
@@ -20,9 +21,11 @@ using sessions::AddAfterTrial;
 using sessions::SessionReader;
 using test_support::TemporaryFolder;
 
-const std::vector<core::EventContent> kSaid = {core::EstimateGiven{AskedWhen::kAfter, 1000.0 / 3.0},
-                                               core::SurveyAnswered{AskedWhen::kAfter, "How sure?", -1},
-                                               core::Note{"it was warm"}};
+const std::vector<core::EventContent> kSaid = {
+    core::EstimateGiven{AskedWhen::kAfter, 1000.0 / 3.0},
+    core::SurveyAnswered{AskedWhen::kAfter, "How sure?", -1},
+    core::QuestionnaireAnswered{AskedWhen::kAfter, "presence; DROP", "sick", "severe"},
+    core::Note{"it was warm"}};
 
 TEST(AfterTrial, WhatIsSaidComesLastWithTheLastFrame) {
   const TemporaryFolder folder;
@@ -50,6 +53,23 @@ TEST(AfterTrial, AWrongAnswerAddsNothing) {
   EXPECT_EQ(SessionReader(folder / "s.db").events(), SampleEvents());
 }
 
+TEST(AfterTrial, AnAnswerThatAQuestionCantHaveAddsNothing) {
+  const TemporaryFolder folder;
+  WriteSampleSession(folder / "s.db", 8);
+  const auto expect_refused = [&](const std::string& name, const std::string& item, core::ItemAnswer answer) {
+    std::vector<core::EventContent> said = kSaid;
+    said.emplace_back(core::QuestionnaireAnswered{AskedWhen::kAfter, name, item, std::move(answer)});
+    EXPECT_THROW(AddAfterTrial(folder / "s.db", said), core::PreconditionError) << item;
+  };
+  expect_refused("presence; DROP", "there", 8.0);
+  expect_refused("presence; DROP", "there", 6.5);
+  expect_refused("presence; DROP", "there", "six");
+  expect_refused("presence; DROP", "sick", "very");
+  expect_refused("presence; DROP", "nowhere", 1.0);
+  expect_refused("ability", "turned", 1.0);  // it is asked before
+  EXPECT_EQ(SessionReader(folder / "s.db").events(), SampleEvents());
+}
+
 TEST(AfterTrial, ATrialThatIsBeingRecordedIsLeftAlone) {
   const TemporaryFolder folder;
   const core::SessionHeader header = SampleHeader();
@@ -57,6 +77,31 @@ TEST(AfterTrial, ATrialThatIsBeingRecordedIsLeftAlone) {
   writer.Append(SampleFrame(header, 0, 1));
   ExpectError([&] { AddAfterTrial(folder / "s.db", kSaid); }, core::ErrorKind::kFile,
               "is being recorded; what is said after the trial can be added when the trial has ended");
+}
+
+void ExpectSameScores(const SessionReader& reader, SQLite::Database& database) {
+  SQLite::Statement questions(database, "SELECT item, answer, value FROM v_question");
+  SQLite::Statement scores(database, "SELECT score, value FROM v_score");
+  for (const core::Questionnaire& questionnaire : reader.header().trial.questionnaires) {
+    const core::ItemAnswers answers = core::AnswersOf(questionnaire, reader.events());
+    for (std::size_t i = 0; i < answers.size(); ++i) {
+      ASSERT_TRUE(questions.executeStep());
+      EXPECT_EQ(questions.getColumn(0).getString(), questionnaire.items[i].id);
+      EXPECT_EQ(questions.getColumn(1).isNull(), !answers[i]);
+      const auto value = answers[i] ? core::ValueOf(questionnaire.items[i], *answers[i]) : std::nullopt;
+      EXPECT_EQ(questions.getColumn(2).isNull(), !value);
+      EXPECT_EQ(questions.getColumn(2).getDouble(), value.value_or(0.0));
+    }
+    for (const core::Score& score : questionnaire.scores) {
+      ASSERT_TRUE(scores.executeStep());
+      EXPECT_EQ(scores.getColumn(0).getString(), score.name);
+      const auto value = core::ScoreOf(questionnaire, score, answers);
+      EXPECT_EQ(scores.getColumn(1).isNull(), !value) << score.name;
+      EXPECT_DOUBLE_EQ(scores.getColumn(1).getDouble(), value.value_or(0.0)) << score.name;
+    }
+  }
+  EXPECT_FALSE(questions.executeStep());
+  EXPECT_FALSE(scores.executeStep());
 }
 
 // The tables' views, asked by another program, say what the values say.
@@ -85,6 +130,7 @@ TEST(AfterTrial, TheViewsSayTheSame) {
   EXPECT_EQ(ask("SELECT group_concat(asked || round(estimate_mm)) FROM v_estimate"),
             "before140.0,after333.0");
   EXPECT_EQ(ask("SELECT count(*) FROM v_event WHERE what IS NULL"), "0");
+  ExpectSameScores(reader, database);
 }
 
 }  // namespace

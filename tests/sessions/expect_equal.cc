@@ -162,6 +162,8 @@ void ExpectEqual(const core::SessionHeader& actual, const core::SessionHeader& e
   EXPECT_EQ(actual.trial.order, expected.trial.order);
   EXPECT_EQ(actual.trial.steps, expected.trial.steps);
   EXPECT_EQ(actual.trial.survey, expected.trial.survey);
+  EXPECT_EQ(actual.trial.questionnaires, expected.trial.questionnaires);
+  EXPECT_EQ(actual.trial.block, expected.trial.block);
   EXPECT_EQ(actual.started_at_utc, expected.started_at_utc);
   EXPECT_EQ(actual.settings, expected.settings);
   EXPECT_EQ(actual.versions, expected.versions);

@@ -110,6 +110,30 @@ void AddStamps(std::size_t cameras, core::FrameRecord* record) {
   if (record->frame % 3 == 0) record->stamps[1] = core::CameraStamp{count, record->time_s + 0.023};
 }
 
+// Every kind of item and every rule of a score; "age" isn't answered by SampleEvents().
+std::vector<core::Questionnaire> SampleQuestionnaires() {
+  core::QuestionnaireItem turned{"turned", "How many figures were <right>?", core::ItemKind::kNumber, 0.0,
+                                 20.5};
+  core::QuestionnaireItem words{"words", "Say; DROP TABLE question", core::ItemKind::kText, 0.0, 0.0};
+  core::QuestionnaireItem there{"there", "O'Hara \"was there\""};
+  there.least_anchor = "not at all; DROP";
+  there.most_anchor = "as <if>";
+  core::QuestionnaireItem lab{"lab", "The laboratory", core::ItemKind::kScale, -3.0, 3.0};
+  lab.reversed = true;
+  core::QuestionnaireItem sick{"sick", "Nausea", core::ItemKind::kChoice, -0.5, 3.0};
+  sick.choices = {"none", "it's \"slight\"", "severe"};
+  sick.values = {-0.5, 1.0 / 3.0, 3.0};
+  core::QuestionnaireItem age{"age", "Age", core::ItemKind::kNumber, 0.0, 150.0};
+  return {{core::AskedWhen::kBefore, "ability", {turned, words}},
+          {core::AskedWhen::kAfter,
+           "presence; DROP",
+           {there, lab, sick, age},
+           {{"high", core::ScoreRule::kCount, {{"there"}, {"lab"}}, 1.0, 2.0, 7.0},
+            {"total", core::ScoreRule::kSum, {{"sick", 2.0}, {"there", -1.0}}, 9.54},
+            {"mean", core::ScoreRule::kMean, {{"lab", 3.0}, {"there"}}},
+            {"open", core::ScoreRule::kSum, {{"there"}, {"age"}}}}}};
+}
+
 }  // namespace
 
 core::SessionHeader SampleHeader() {
@@ -123,6 +147,8 @@ core::SessionHeader SampleHeader() {
   header.trial.survey = {{core::AskedWhen::kBefore, "How sure?", 1, 7},
                          {core::AskedWhen::kAfter, "How sure?", -3, 3},
                          {core::AskedWhen::kAfter, "O'Hara's <i>effort</i>", 0, 100}};
+  header.trial.block = "timed; DROP";
+  header.trial.questionnaires = SampleQuestionnaires();
   header.rig.name = "bench";
   header.rig.workspace_mm = {Eigen::Vector3d(-500.0, -400.5, 0.0),
                              Eigen::Vector3d(500.0, 400.0, 1000.0 / 3.0)};
@@ -255,6 +281,10 @@ core::SessionHeader AsOfSchema(int schema, core::SessionHeader header) {
     header.trial.steps.clear();
     header.trial.survey.clear();
   }
+  if (schema < 11) {
+    header.trial.block.clear();
+    header.trial.questionnaires.clear();
+  }
   return header;
 }
 
@@ -262,6 +292,8 @@ std::vector<core::SessionEvent> SampleEvents() {
   using core::AskedWhen;
   return {{0, 0.0, core::SurveyAnswered{AskedWhen::kBefore, "How sure?", 6}},
           {0, 0.0, core::EstimateGiven{AskedWhen::kBefore, 140.0}},
+          {0, 0.0, core::QuestionnaireAnswered{AskedWhen::kBefore, "ability", "turned", 37.0 / 3.0}},
+          {0, 0.0, core::QuestionnaireAnswered{AskedWhen::kBefore, "ability", "words", "<i>it's</i>; DROP"}},
           {1, 1 / 30.0, core::StepMarked{"reach 'in' <b>", true}},
           {2, 2 / 30.0, core::ToolMarked{"tongs", true}},
           {2, 2 / 30.0, core::Bookmark{"<dropped> it"}},
@@ -273,7 +305,12 @@ std::vector<core::SessionEvent> SampleEvents() {
           {6, 6 / 30.0, core::Note{"ended at the shortest source: 'left' <&>"}},
           {6, 6 / 30.0, core::EstimateGiven{AskedWhen::kAfter, 200.0 / 3.0}},
           {6, 6 / 30.0, core::SurveyAnswered{AskedWhen::kAfter, "How sure?", -3}},
-          {6, 6 / 30.0, core::SurveyAnswered{AskedWhen::kAfter, "How sure?", 2}}};
+          {6, 6 / 30.0, core::SurveyAnswered{AskedWhen::kAfter, "How sure?", 2}},
+          {6, 6 / 30.0, core::QuestionnaireAnswered{AskedWhen::kAfter, "presence; DROP", "there", 7.0}},
+          {6, 6 / 30.0, core::QuestionnaireAnswered{AskedWhen::kAfter, "presence; DROP", "lab", -2.0}},
+          {6, 6 / 30.0,
+           core::QuestionnaireAnswered{AskedWhen::kAfter, "presence; DROP", "sick", "it's \"slight\""}},
+          {6, 6 / 30.0, core::QuestionnaireAnswered{AskedWhen::kAfter, "presence; DROP", "there", 6.0}}};
 }
 
 std::vector<core::ContactEpisode> SampleEpisodes(core::FrameIndex first, core::FrameIndex last) {

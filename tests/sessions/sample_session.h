@@ -24,7 +24,8 @@ namespace elbowroom::tests {
 [[nodiscard]] core::SessionHeader AsOfSchema(int schema, core::SessionHeader header);
 
 // A spacing change, a tool taken and put away, a note; two steps, the second of which isn't ended; two
-// bookmarks; estimates and answers, one of which is given twice, one not at all.
+// bookmarks; estimates, and answers to the survey and to questionnaires, some of which are given twice, some
+// not at all.
 [[nodiscard]] std::vector<core::SessionEvent> SampleEvents();
 
 // One of part 0 and one of part 1 within frames first..last.

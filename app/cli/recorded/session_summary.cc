@@ -11,6 +11,7 @@
 #include "app/cli/options/value_json.h"
 #include "core/plain_text.h"
 #include "core/procedure/answers.h"
+#include "core/procedure/scores.h"
 #include "core/procedure/step_runs.h"
 
 namespace elbowroom::cli {
@@ -91,6 +92,48 @@ nlohmann::json SurveyJson(const core::TrialInfo& trial, const std::vector<core::
   return survey;
 }
 
+nlohmann::json AnswerJson(const std::optional<core::ItemAnswer>& answer) {
+  if (!answer) return nullptr;
+  return std::visit([](const auto& said) { return nlohmann::json(said); }, *answer);
+}
+
+nlohmann::json ItemsJson(const core::Questionnaire& questionnaire, const core::ItemAnswers& answers) {
+  nlohmann::json items = nlohmann::json::array();
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const core::QuestionnaireItem& item = questionnaire.items[i];
+    nlohmann::json json = {
+        {"id", item.id},
+        {"text", item.text},
+        {"kind", core::ToString(item.kind)},
+        {"reversed", item.reversed},
+        {"answer", AnswerJson(answers[i])},
+        {"value", JsonOrNull(answers[i] ? core::ValueOf(item, *answers[i]) : std::nullopt)}};
+    if (item.kind == core::ItemKind::kScale) json["scale"] = {item.least, item.most};
+    if (item.kind == core::ItemKind::kNumber) json["range"] = {item.least, item.most};
+    if (item.kind == core::ItemKind::kChoice) json["choices"] = item.choices;
+    items.push_back(std::move(json));
+  }
+  return items;
+}
+
+nlohmann::json QuestionnairesJson(const core::TrialInfo& trial,
+                                  const std::vector<core::SessionEvent>& events) {
+  nlohmann::json questionnaires = nlohmann::json::array();
+  for (const core::Questionnaire& questionnaire : trial.questionnaires) {
+    const core::ItemAnswers answers = core::AnswersOf(questionnaire, events);
+    nlohmann::json scores = nlohmann::json::array();
+    for (const core::Score& score : questionnaire.scores)
+      scores.push_back({{"score", score.name},
+                        {"rule", core::ToString(score.rule)},
+                        {"value", JsonOrNull(core::ScoreOf(questionnaire, score, answers))}});
+    questionnaires.push_back({{"when", core::ToString(questionnaire.when)},
+                              {"questionnaire", questionnaire.name},
+                              {"items", ItemsJson(questionnaire, answers)},
+                              {"scores", std::move(scores)}});
+  }
+  return questionnaires;
+}
+
 bool IsNearMissHere(const core::Finding& finding) {
   return finding.kind == core::FindingKind::kNearMiss && finding.presence == core::FindingPresence::kHere;
 }
@@ -108,6 +151,18 @@ std::string OriginText(const nlohmann::json& origin) {
   std::string text = fmt::format("\n  replay of {}", Shown(origin["file"]));
   if (origin["changes"].empty()) text += ", unchanged";
   for (const nlohmann::json& change : origin["changes"]) text += "\n    changed: " + Shown(change);
+  return text;
+}
+
+std::string QuestionnaireText(const nlohmann::json& questionnaire) {
+  const auto answered = std::ranges::count_if(
+      questionnaire["items"], [](const nlohmann::json& item) { return !item["answer"].is_null(); });
+  std::string text = fmt::format(
+      "\n  questionnaire '{}' {} the trial: {} of {} answered", Shown(questionnaire["questionnaire"]),
+      questionnaire["when"].get<std::string>(), answered, questionnaire["items"].size());
+  for (const nlohmann::json& score : questionnaire["scores"])
+    text += fmt::format("; {} {}", Shown(score["score"]),
+                        score["value"].is_null() ? "-" : fmt::format("{:.4g}", score["value"].get<double>()));
   return text;
 }
 
@@ -132,11 +187,13 @@ nlohmann::json SummaryJson(const sessions::SessionReader& session) {
       {"participant", header.trial.participant},
       {"task", header.trial.task},
       {"condition", header.trial.condition},
+      {"block", header.trial.block},
       {"order", header.trial.order > 0 ? nlohmann::json(header.trial.order) : nlohmann::json()},
       {"estimate_mm", header.trial.estimate_mm},
       {"estimate_after_mm", JsonOrNull(core::EstimatesOf(header.trial, events).after_mm)},
       {"steps", StepsJson(events)},
       {"survey", SurveyJson(header.trial, events)},
+      {"questionnaires", QuestionnairesJson(header.trial, events)},
       {"required_clearance_mm", header.trial.required_clearance_mm},
       {"tools", header.trial.tools},
       {"started_at_utc", header.started_at_utc},
@@ -180,6 +237,10 @@ std::string SummaryText(const nlohmann::json& summary) {
                       summary["review"]["remarks"].get<int>());
   if (!summary["condition"].get<std::string>().empty())
     text += fmt::format("\n  condition '{}'", Shown(summary["condition"]));
+  if (!summary["block"].get<std::string>().empty())
+    text += fmt::format("\n  block '{}'", Shown(summary["block"]));
+  for (const nlohmann::json& questionnaire : summary["questionnaires"])
+    text += QuestionnaireText(questionnaire);
   for (const nlohmann::json& step : summary["steps"])
     text += fmt::format(
         "\n  step '{}': begun at {:.1f} s{}", Shown(step["step"]), step["begin_s"].get<double>(),

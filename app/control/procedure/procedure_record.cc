@@ -22,7 +22,8 @@ std::vector<core::SessionEvent> ProcedureRecord::Begin(const std::string& step, 
 
 bool IsOfParticipant(const core::EventContent& what) {
   return std::holds_alternative<core::EstimateGiven>(what) ||
-         std::holds_alternative<core::SurveyAnswered>(what);
+         std::holds_alternative<core::SurveyAnswered>(what) ||
+         std::holds_alternative<core::QuestionnaireAnswered>(what);
 }
 
 }  // namespace elbowroom::control

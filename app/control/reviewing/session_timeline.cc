@@ -50,6 +50,9 @@ class MarkList {
   void Take(double time_s, const core::Bookmark& bookmark) { Add(MarkKind::kBookmark, time_s, bookmark); }
   void Take(double time_s, const core::EstimateGiven& given) { Add(MarkKind::kAnswer, time_s, given); }
   void Take(double time_s, const core::SurveyAnswered& answered) { Add(MarkKind::kAnswer, time_s, answered); }
+  void Take(double time_s, const core::QuestionnaireAnswered& answered) {
+    Add(MarkKind::kAnswer, time_s, answered);
+  }
 
   void Add(MarkKind kind, double time_s, const core::EventContent& what) {
     marks_.push_back({kind, time_s, core::EventText(what)});
