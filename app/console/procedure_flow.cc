@@ -9,6 +9,7 @@
 #include "app/control/trial_setup.h"
 #include "core/error.h"
 #include "core/procedure/answers.h"
+#include "core/procedure/scores.h"
 #include "sessions/after_trial.h"
 
 namespace elbowroom::console {
@@ -17,18 +18,27 @@ namespace {
 constexpr int kSidePx = 250;
 
 bool HasProcedure(const core::TrialInfo& trial) {
-  return !trial.steps.empty() || !trial.survey.empty() || !trial.condition.empty() || trial.order > 0;
+  return !trial.steps.empty() || !trial.survey.empty() || !trial.questionnaires.empty() ||
+         !trial.condition.empty() || !trial.block.empty() || trial.order > 0;
+}
+
+// Whether the trial asks what was answered.
+bool Asks(const core::TrialInfo& trial, const core::EventContent& what) {
+  if (const auto* answered = std::get_if<core::SurveyAnswered>(&what))
+    return core::FindItem(trial, answered->when, answered->item) != nullptr;
+  const auto* answered = std::get_if<core::QuestionnaireAnswered>(&what);
+  if (answered == nullptr) return true;
+  const core::Questionnaire* asked = core::FindQuestionnaire(trial, answered->when, answered->questionnaire);
+  const core::QuestionnaireItem* item = asked == nullptr ? nullptr : core::FindItem(*asked, answered->item);
+  return item != nullptr && core::CanBe(*item, answered->answer);
 }
 
 // What was said of the file as the page read it; the file may have changed since.
 void Add(const SaidBefore& said, control::TrialSetup* setup) {
   setup->info.participant = said.participant;
   setup->info.estimate_mm = said.estimate_mm;
-  for (const core::EventContent& what : said.events) {
-    const auto* answered = std::get_if<core::SurveyAnswered>(&what);
-    if (answered == nullptr || core::FindItem(setup->info, answered->when, answered->item) != nullptr)
-      setup->opening.push_back(what);
-  }
+  for (const core::EventContent& what : said.events)
+    if (Asks(setup->info, what)) setup->opening.push_back(what);
   if (!setup->info.steps.empty()) setup->first_step = setup->info.steps.front();
 }
 

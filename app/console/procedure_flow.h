@@ -23,8 +23,8 @@
 
 namespace elbowroom::console {
 
-// A trial file with a condition, an order, steps or a survey has a procedure; any other trial starts at once,
-// as the demo does. The window owns pages and panels. Thread: UI.
+// A trial file with a condition, an order, a block, steps or a survey has a procedure; any other trial starts
+// at once, as the demo does. The window owns pages and panels. Thread: UI.
 class ProcedureFlow : public QObject {
   Q_OBJECT
 

@@ -6,7 +6,7 @@
 
 #include "app/control/procedure/procedure_table.h"
 #include "app/control/segmentation/segmentation_table.h"
-#include "app/control/segmentation/trial_keys.h"
+#include "app/control/trial_file/trial_tables.h"
 #include "cad_import/layout/layout_file.h"
 #include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
@@ -97,7 +97,8 @@ double LengthFromZero(const TomlEntry& entry, std::string_view key) {
   return length_mm;
 }
 
-core::TrialInfo InfoFrom(const TomlEntry& root) {
+core::TrialInfo InfoFrom(const TrialTables& tables) {
+  const TomlEntry root = tables.Root();
   core::TrialInfo info;
   info.participant = root.TextOr("participant", "");
   info.task = root.TextOr("task", "");
@@ -105,30 +106,28 @@ core::TrialInfo InfoFrom(const TomlEntry& root) {
   info.required_clearance_mm = LengthFromZero(root, "required_clearance_mm");
   info.uncertainty_mm = LengthFromZero(root, "uncertainty_mm");
   info.tools = root.Texts("tools");
-  ReadProcedure(root, &info);
+  ReadProcedure(root, tables.file.parent_path(), &info);
+  if (const auto planned = tables.Planned()) ReadPlanned(*planned, &info);
   return info;
 }
 
 }  // namespace
 
-core::TrialInfo ReadTrialInfo(const std::filesystem::path& path) {
-  const toml::table table = cad_import::ParseTomlFile(path, "trial file");
-  return InfoFrom(TomlEntry(table, path.string(), "", kTrialKeys));
-}
+core::TrialInfo ReadTrialInfo(const std::filesystem::path& path) { return InfoFrom(ReadTrialTables(path)); }
 
 TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop) {
-  const toml::table table = cad_import::ParseTomlFile(path, "trial file");
-  const TomlEntry root(table, path.string(), "", kTrialKeys);
+  const TrialTables tables = ReadTrialTables(path);
+  const TomlEntry root = tables.Root();
   TrialSetup setup;
-  setup.info = InfoFrom(root);
-  const std::filesystem::path folder = path.parent_path();
+  setup.info = InfoFrom(tables);
+  const std::filesystem::path folder = tables.file.parent_path();
   setup.layout_file = folder / root.Text("layout");
   cad_import::ImportedLayout imported = cad_import::ImportLayoutFile(setup.layout_file, {}, stop);
   setup.layout = core::WithPairsOfParts(std::move(imported.layout));
   setup.sections = std::move(imported.sections);
   setup.warnings = std::move(imported.warnings);
   recon::RigFile rig_file = recon::ReadRigFile(folder / root.Text("rig"));
-  SegmentationTable segmentation = ReadSegmentation(root, path, rig_file.rig);
+  SegmentationTable segmentation = ReadSegmentation(root, tables.file, rig_file.rig);
   setup.segmentation = std::move(segmentation.options);
   setup.rig_quality = recon::QualityOf(rig_file);
   core::RigQuality& quality = setup.rig_quality;
@@ -144,7 +143,7 @@ TrialSetup ReadTrialFile(const std::filesystem::path& path, std::stop_token stop
   setup.footage = RecorderFor(root, rig_file, &setup.warnings);
   recon::LiveTaps taps = setup.footage ? setup.footage->Taps() : recon::LiveTaps();
   setup.source =
-      OpenSource(std::move(rig_file), ReadViewer(root, path), std::move(taps), stop, &setup.warnings);
+      OpenSource(std::move(rig_file), ReadViewer(root, tables.file), std::move(taps), stop, &setup.warnings);
   return setup;
 }
 

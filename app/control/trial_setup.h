@@ -40,8 +40,8 @@ struct TrialSetup {
   std::vector<std::string> warnings;                          // of the files that were read
 };
 
-// What TRIAL.toml says of the trial itself; its rig and layout aren't opened. Throws: core::Error with file,
-// line and key for what the trial file has wrong.
+// What TRIAL.toml, its base and its questionnaires say of the trial itself; its rig and layout aren't opened.
+// Throws: core::Error with file, line and key for what one of them has wrong.
 [[nodiscard]] core::TrialInfo ReadTrialInfo(const std::filesystem::path& path);
 
 // Reads TRIAL.toml (docs/user_guide.md) with its rig and layout; opens the footage.

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <tuple>
 
+#include "app/control/layout_editing/trial_draft.h"
+#include "app/control/preflight/preflight_rig.h"
 #include "app/control/segmentation/segmentation_settings.h"
 #include "core/error.h"
 #include "tests/app/mask_rig.h"
@@ -218,6 +222,93 @@ TEST(ReadTrialInfo, NamesWhatIsWrongInAProcedure) {
   expect_fault(item + "scale = [1, 100000]", "key 'scale' must be two whole numbers");
   expect_fault(item + item, "'a' is asked after the trial already");
   expect_fault("[[survey]]\nwhen = \"after\"", "key 'item' is missing");
+}
+
+// A trial whose survey is in a file of another folder, and planned trials of it.
+class PlannedTrialFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"asked", "plan"}) std::filesystem::create_directory(folder_ / name);
+    WriteText(folder_ / "asked/q.toml", "name = \"presence\"\n[[item]]\nid = \"there\"\ntext = \"There?\"\n");
+    test_support::WriteBallRig(folder_.path());
+    test_support::WriteBoxStl(folder_ / "box.stl", 40.0);
+    WriteText(folder_ / "layout.toml", kLayout);
+    WriteBase("");
+  }
+  void WriteBase(const std::string& more) const {
+    WriteText(folder_ / "trial.toml", R"(rig = "rig.yml"
+layout = "layout.toml"
+participant = "nobody"
+task = "reach"
+condition = "bare"
+estimate_mm = 12
+[[survey]]
+when = "after"
+file = "asked/q.toml"
+[segmentation]
+k_sigma = 7.5
+)" + more);
+  }
+  [[nodiscard]] std::filesystem::path Planned(const std::string& lines) const {
+    WriteText(folder_ / "plan/P01-2.toml", lines);
+    return folder_ / "plan/P01-2.toml";
+  }
+  [[nodiscard]] std::string FaultOfPlanned(const std::string& lines) const {
+    try {
+      (void)ReadTrialInfo(Planned(lines));
+    } catch (const core::Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+  test_support::TemporaryFolder folder_;
+};
+
+constexpr const char* kPlanned = R"(base = "../trial.toml"
+participant = "P01"
+condition = "gloves"
+order = 2
+block = "timed"
+)";
+
+TEST_F(PlannedTrialFile, SaysWhoAndWhenAndItsBaseAllElse) {
+  const TrialSetup setup = ReadTrialFile(Planned(kPlanned));
+  EXPECT_EQ(std::tie(setup.info.participant, setup.info.condition, setup.info.order, setup.info.block),
+            std::make_tuple(std::string("P01"), std::string("gloves"), 2, std::string("timed")));
+  EXPECT_EQ(setup.info.task, "reach");
+  EXPECT_EQ(setup.info.estimate_mm, 12.0);
+  EXPECT_EQ(setup.segmentation.k_sigma, 7.5);
+  EXPECT_EQ(setup.layout.parts.size(), 1U);
+  ASSERT_EQ(setup.info.questionnaires.size(), 1U);
+  EXPECT_EQ(setup.info.questionnaires[0].name, "presence");
+  EXPECT_EQ(setup.info.questionnaires[0].when, core::AskedWhen::kAfter);
+}
+
+TEST_F(PlannedTrialFile, IsATrialToPreflightAndWindow) {
+  const std::filesystem::path planned = Planned(kPlanned);
+  EXPECT_EQ(KindOf(planned), TomlKind::kTrial);
+  EXPECT_EQ(ReadPreflightRig(planned).rig_file.rig.name,
+            ReadPreflightRig(folder_ / "rig.yml").rig_file.rig.name);
+}
+
+TEST_F(PlannedTrialFile, WhatIsWrongIsOneLine) {
+  EXPECT_NE(FaultOfPlanned("base = \"nowhere.toml\"\n").find("P01-2.toml:1: key 'base' names '"),
+            std::string::npos);
+  EXPECT_NE(FaultOfPlanned("base = \"P01-2.toml\"\n").find("has a base itself"), std::string::npos);
+  EXPECT_NE(
+      FaultOfPlanned("base = \"../trial.toml\"\nrig = \"rig.yml\"\n").find("P01-2.toml:2: unknown key 'rig'"),
+      std::string::npos);
+  EXPECT_NE(
+      FaultOfPlanned("base = \"../trial.toml\"\norder = 0\n").find("key 'order' must be a whole number"),
+      std::string::npos);
+  EXPECT_NE(FaultOfPlanned("base = 3\n").find("key 'base' must be a text"), std::string::npos);
+  WriteBase("[[survey]]\nwhen = \"after\"\nfile = \"asked/q.toml\"\n");
+  EXPECT_NE(FaultOfPlanned(kPlanned).find("'presence' is asked after the trial already"), std::string::npos);
+  WriteBase("[[survey]]\nwhen = \"before\"\nfile = \"q.toml\"\n");
+  EXPECT_NE(FaultOfPlanned(kPlanned).find("trial.toml:14: [[survey]]: key 'file' names '"), std::string::npos)
+      << FaultOfPlanned(kPlanned);
+  WriteBase("[[survey]]\nwhen = \"before\"\nfile = \"asked/q.toml\"\nitem = \"a\"\n");
+  EXPECT_NE(FaultOfPlanned(kPlanned).find("key 'item' can't stand beside 'file'"), std::string::npos);
 }
 
 }  // namespace

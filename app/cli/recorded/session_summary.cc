@@ -155,8 +155,8 @@ std::string OriginText(const nlohmann::json& origin) {
 }
 
 std::string QuestionnaireText(const nlohmann::json& questionnaire) {
-  const auto answered = std::ranges::count_if(
-      questionnaire["items"], [](const nlohmann::json& item) { return !item["answer"].is_null(); });
+  const auto answered = std::count_if(questionnaire["items"].begin(), questionnaire["items"].end(),
+                                      [](const nlohmann::json& item) { return !item["answer"].is_null(); });
   std::string text = fmt::format(
       "\n  questionnaire '{}' {} the trial: {} of {} answered", Shown(questionnaire["questionnaire"]),
       questionnaire["when"].get<std::string>(), answered, questionnaire["items"].size());

@@ -1,9 +1,8 @@
 #include "app/console/procedure/question_form.h"
 
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QToolButton>
+#include <utility>
 
+#include "app/console/procedure/answer_field.h"
 #include "core/procedure/answers.h"
 
 namespace elbowroom::console {
@@ -11,7 +10,6 @@ namespace {
 
 constexpr double kLargestEstimateMm = 100'000.0;
 constexpr int kEstimateRows = 1;  // of the form, before the items
-constexpr int kMostButtons = 11;  // longer scales have a box of numbers
 
 QString WordOf(core::AskedWhen when) {
   const std::string_view word = core::ToString(when);
@@ -42,55 +40,58 @@ void QuestionForm::Open(const core::TrialInfo& trial, std::optional<double> esti
   questions_.clear();
   estimate_->setValue(estimate_mm.value_or(0.0));
   for (const core::SurveyItem& item : trial.survey)
-    if (item.when == when_) AddItem(item);
+    if (item.when == when_) AddSurveyItem(item);
+  for (const core::Questionnaire& questionnaire : trial.questionnaires)
+    if (questionnaire.when == when_) AddQuestionnaire(questionnaire);
 }
 
-void QuestionForm::AddItem(const core::SurveyItem& item) {
-  const QString name = QString("answer:%1:%2").arg(WordOf(when_)).arg(questions_.size());
-  auto* label = new QLabel(QString::fromStdString(item.item));
+void QuestionForm::AddSurveyItem(const core::SurveyItem& item) {
+  core::QuestionnaireItem asked{"", item.item};
+  asked.least = item.least;
+  asked.most = item.most;
+  AddItem(asked, QString("answer:%1:%2").arg(WordOf(when_)).arg(questions_.size()),
+          [item](const core::ItemAnswer& answer) {
+            return core::SurveyAnswered{item.when, item.item, static_cast<int>(std::get<double>(answer))};
+          });
+}
+
+void QuestionForm::AddQuestionnaire(const core::Questionnaire& questionnaire) {
+  QLabel* title = AddLabel(questionnaire.name);
+  QFont font = title->font();
+  font.setBold(true);
+  title->setFont(font);
+  for (const core::QuestionnaireItem& item : questionnaire.items)
+    AddItem(
+        item,
+        QString("questionnaire:%1:%2:%3")
+            .arg(WordOf(when_), QString::fromStdString(questionnaire.name), QString::fromStdString(item.id)),
+        [when = when_, name = questionnaire.name, id = item.id](const core::ItemAnswer& answer) {
+          return core::QuestionnaireAnswered{when, name, id, answer};
+        });
+}
+
+void QuestionForm::AddItem(const core::QuestionnaireItem& item, const QString& name,
+                           std::function<core::EventContent(const core::ItemAnswer&)> event) {
+  AddLabel(item.text);
+  AnswerField field = MakeAnswerField(item, name);
+  form_->addRow(field.widget);
+  if (!item.least_anchor.empty() || !item.most_anchor.empty())
+    AddLabel(tr("%1: %2; %3: %4")
+                 .arg(item.least)
+                 .arg(QString::fromStdString(item.least_anchor))
+                 .arg(item.most)
+                 .arg(QString::fromStdString(item.most_anchor))
+                 .toStdString());
+  questions_.push_back({std::move(field.answer), std::move(event)});
+}
+
+// Over the form's width.
+QLabel* QuestionForm::AddLabel(const std::string& text) {
+  auto* label = new QLabel(QString::fromStdString(text));
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
-  const bool has_buttons = item.most - item.least < kMostButtons;
-  form_->addRow(label);  // over the form's width
-  form_->addRow(has_buttons ? ButtonsOf(item, name) : BoxOf(item, name));
-}
-
-QWidget* QuestionForm::ButtonsOf(const core::SurveyItem& item, const QString& name) {
-  auto* row = new QWidget;
-  auto* line = new QHBoxLayout(row);
-  line->setContentsMargins(0, 0, 0, 0);
-  line->setSpacing(2);
-  auto* group = new QButtonGroup(row);
-  for (int value = item.least; value <= item.most; ++value) {
-    auto* button = new QToolButton;
-    button->setObjectName(QString("%1:%2").arg(name).arg(value));
-    button->setText(QString::number(value));
-    button->setCheckable(true);
-    button->setAccessibleName(QString("%1: %2").arg(QString::fromStdString(item.item)).arg(value));
-    button->setToolTip(tr("%1, on a scale from %2 to %3").arg(value).arg(item.least).arg(item.most));
-    group->addButton(button, value - item.least);
-    line->addWidget(button);
-  }
-  line->addStretch(1);
-  questions_.push_back({item, [group, least = item.least]() -> std::optional<int> {
-                          if (group->checkedId() < 0) return std::nullopt;
-                          return group->checkedId() + least;
-                        }});
-  return row;
-}
-
-QWidget* QuestionForm::BoxOf(const core::SurveyItem& item, const QString& name) {
-  auto* box = new QSpinBox;
-  box->setObjectName(name);
-  box->setAccessibleName(QString::fromStdString(item.item));
-  box->setRange(item.least - 1, item.most);  // one below the scale stands for no answer
-  box->setValue(item.least - 1);
-  box->setSpecialValueText(tr("not answered"));
-  box->setToolTip(tr("On a scale from %1 to %2").arg(item.least).arg(item.most));
-  questions_.push_back({item, [box, least = item.least]() -> std::optional<int> {
-                          return box->value() < least ? std::nullopt : std::optional(box->value());
-                        }});
-  return box;
+  form_->addRow(label);
+  return label;
 }
 
 std::optional<double> QuestionForm::estimate_mm() const {
@@ -101,8 +102,7 @@ std::vector<core::EventContent> QuestionForm::Said() const {
   std::vector<core::EventContent> said;
   if (const auto estimate = estimate_mm()) said.emplace_back(core::EstimateGiven{when_, *estimate});
   for (const Question& question : questions_)
-    if (const std::optional<int> answer = question.answer())
-      said.emplace_back(core::SurveyAnswered{when_, question.item.item, *answer});
+    if (const auto answer = question.answer()) said.push_back(question.event(*answer));
   return said;
 }
 

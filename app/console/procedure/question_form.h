@@ -1,13 +1,13 @@
-// What a participant is asked before or after a trial: the estimate and the survey's items.
+// What a participant is asked before or after a trial: the estimate, the survey's items, questionnaires.
 #pragma once
 
-#include <QButtonGroup>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
-#include <QSpinBox>
+#include <QLabel>
 #include <QWidget>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/session.h"
@@ -21,7 +21,7 @@ class QuestionForm : public QWidget {
  public:
   QuestionForm(core::AskedWhen when, QWidget* parent = nullptr);
 
-  // The items of `when`; nothing is answered yet but the estimate, where one is given.
+  // The items and questionnaires of `when`; nothing is answered yet but the estimate, where one is given.
   void Open(const core::TrialInfo& trial, std::optional<double> estimate_mm);
 
   [[nodiscard]] std::optional<double> estimate_mm() const;
@@ -31,13 +31,16 @@ class QuestionForm : public QWidget {
   void FocusEstimate();
 
  private:
-  void AddItem(const core::SurveyItem& item);
-  [[nodiscard]] QWidget* ButtonsOf(const core::SurveyItem& item, const QString& name);
-  [[nodiscard]] QWidget* BoxOf(const core::SurveyItem& item, const QString& name);
+  void AddSurveyItem(const core::SurveyItem& item);
+  void AddQuestionnaire(const core::Questionnaire& questionnaire);
+  // `event`: what an answer is in the session.
+  void AddItem(const core::QuestionnaireItem& item, const QString& name,
+               std::function<core::EventContent(const core::ItemAnswer&)> event);
+  QLabel* AddLabel(const std::string& text);
 
   struct Question {
-    core::SurveyItem item;
-    std::function<std::optional<int>()> answer;
+    std::function<std::optional<core::ItemAnswer>()> answer;
+    std::function<core::EventContent(const core::ItemAnswer&)> event;
   };
 
   core::AskedWhen when_;

@@ -26,6 +26,7 @@ QString FactsOf(const core::TrialInfo& trial) {
   if (!trial.condition.empty())
     facts << StartPage::tr("Condition: %1").arg(QString::fromStdString(trial.condition));
   if (trial.order > 0) facts << StartPage::tr("The participant's trial no. %1").arg(trial.order);
+  if (!trial.block.empty()) facts << StartPage::tr("Block: %1").arg(QString::fromStdString(trial.block));
   return facts.join('\n');
 }
 

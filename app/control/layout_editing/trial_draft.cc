@@ -61,7 +61,7 @@ void WriteTrial(const TrialDraft& draft, const fs::path& trial_file) {
 TomlKind KindOf(const fs::path& toml_file) {
   const toml::table table = cad_import::ParseTomlFile(toml_file, "layout or trial file");
   const auto has = [&](std::string_view key) { return table.contains(key); };
-  constexpr std::array<std::string_view, 2> kTrial{"rig", "layout"};
+  constexpr std::array<std::string_view, 3> kTrial{"rig", "layout", "base"};
   if (std::ranges::any_of(kTrial, has)) return TomlKind::kTrial;
   if (table.empty() || std::ranges::any_of(cad_import::kLayoutKeys, has)) return TomlKind::kLayout;
   throw core::Error(core::ErrorKind::kFormat,

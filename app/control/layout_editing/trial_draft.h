@@ -26,9 +26,9 @@ void WriteTrial(const TrialDraft& draft, const std::filesystem::path& trial_file
 
 enum class TomlKind { kLayout, kTrial };
 
-// By the keys: what names a rig or a layout is a trial, and what has parts, gaps or rules, or nothing at all,
-// is a layout. Throws: Error{kFile} when it can't be read, Error{kFormat} with the line that isn't TOML, or
-// naming the file if it is neither.
+// By the keys: what names a rig, a layout or a base is a trial, and what has parts, gaps or rules, or nothing
+// at all, is a layout. Throws: Error{kFile} when it can't be read, Error{kFormat} with the line that isn't
+// TOML, or naming the file if it is neither.
 [[nodiscard]] TomlKind KindOf(const std::filesystem::path& toml_file);
 
 }  // namespace elbowroom::control

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "cad_import/layout/toml_entry.h"
+#include "app/control/trial_file/trial_tables.h"
 #include "core/error.h"
 #include "recon/capture/rig_source.h"
 
@@ -13,14 +13,14 @@ namespace {
 
 std::filesystem::path RigPathOf(const std::filesystem::path& file) {
   if (file.extension() != ".toml") return file;
-  const toml::table trial = cad_import::ParseTomlFile(file, "trial file");
-  const auto rig = trial["rig"].value<std::string>();
+  const TrialTables trial = ReadTrialTables(file);
+  const auto rig = trial.table["rig"].value<std::string>();
   if (!rig) {
     throw core::Error(
         core::ErrorKind::kFormat,
-        fmt::format("{}: names no rig; a trial file has the line rig = \"RIG.yml\"", file.string()));
+        fmt::format("{}: names no rig; a trial file has the line rig = \"RIG.yml\"", trial.file.string()));
   }
-  return file.parent_path() / *rig;
+  return trial.file.parent_path() / *rig;
 }
 
 }  // namespace

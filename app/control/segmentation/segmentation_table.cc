@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/control/segmentation/trial_keys.h"
+#include "app/control/trial_file/trial_tables.h"
 #include "core/error.h"
 #include "recon/images/mask_image.h"
 
@@ -94,12 +94,12 @@ SegmentationTable ReadSegmentation(const TomlEntry& root, const std::filesystem:
 }
 
 SegmentationTable ReadSegmentationFile(const std::filesystem::path& file, const core::Rig& rig) {
-  const toml::table table = cad_import::ParseTomlFile(file, "segmentation file");
-  const TomlEntry root(table, file.string(), "", kTrialKeys);
+  const TrialTables tables = ReadTrialTables(file, "segmentation file");
+  const TomlEntry root = tables.Root();
   if (root.Find("segmentation") == nullptr)
-    root.FailAt(table.source(),
+    root.FailAt(tables.table.source(),
                 "has no [segmentation]; add that table, as in a trial file (an empty one: the defaults)");
-  return ReadSegmentation(root, file, rig);
+  return ReadSegmentation(root, tables.file, rig);
 }
 
 }  // namespace elbowroom::control

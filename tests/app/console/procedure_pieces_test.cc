@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSettings>
 #include <QSignalSpy>
@@ -101,6 +103,37 @@ TEST(QuestionForm, SaysOnlyWhatWasAnswered) {
                                              core::SurveyAnswered{AskedWhen::kAfter, "effort", 0}}));
   form.Open(trial, 140.0);
   EXPECT_EQ(form.Said(), (std::vector<core::EventContent>{core::EstimateGiven{AskedWhen::kAfter, 140.0}}));
+}
+
+TEST(QuestionForm, AnswersQuestionnairesAsTheirItemsAsk) {
+  core::QuestionnaireItem there{"there", "Were you there?"}, long_scale{"effort", "Effort"},
+      sick{"sick", "Nausea", core::ItemKind::kChoice, 0.0, 2.0},
+      age{"age", "Age", core::ItemKind::kNumber, 0.0, 120.0}, left_out{"left_out", "Not answered"},
+      words{"words", "In the way?", core::ItemKind::kText, 0.0, 0.0};
+  there.least_anchor = "not at all";
+  there.most_anchor = "very much";
+  long_scale.least = 0.0;
+  long_scale.most = 100.0;
+  sick.choices = {"none", "slight", "severe"};
+  sick.values = {0.0, 1.0, 2.0};
+  core::TrialInfo trial;
+  trial.questionnaires = {{AskedWhen::kAfter, "Q", {there, long_scale, sick, age, left_out, words}},
+                          {AskedWhen::kBefore, "R", {there}}};
+  QuestionForm form(AskedWhen::kAfter);
+  form.Open(trial, std::nullopt);
+  EXPECT_TRUE(form.Said().empty());
+  EXPECT_EQ(form.findChild<QToolButton*>("questionnaire:before:R:there:6"), nullptr);
+  form.findChild<QToolButton*>("questionnaire:after:Q:there:6")->click();
+  form.findChild<QSpinBox*>("questionnaire:after:Q:effort")->setValue(0);
+  form.findChild<QComboBox*>("questionnaire:after:Q:sick")->setCurrentText("slight");
+  form.findChild<QDoubleSpinBox*>("questionnaire:after:Q:age")->setValue(31.5);
+  form.findChild<QPlainTextEdit*>("questionnaire:after:Q:words")->setPlainText("  the lid\n");
+  const auto said = [](const char* item, core::ItemAnswer answer) {
+    return core::EventContent(core::QuestionnaireAnswered{AskedWhen::kAfter, "Q", item, std::move(answer)});
+  };
+  EXPECT_EQ(form.Said(), (std::vector{said("there", 6.0), said("effort", 0.0), said("sick", "slight"),
+                                      said("age", 31.5), said("words", "the lid")}));
+  EXPECT_EQ(form.findChild<QDoubleSpinBox*>("questionnaire:after:Q:age")->text(), "31.5") << "without zeros";
 }
 
 core::Layout LayoutOf(const std::string& gap) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -16,6 +17,7 @@
 #include "app/control/replay/replay.h"
 #include "core/procedure/answers.h"
 #include "core/procedure/event_text.h"
+#include "core/procedure/scores.h"
 #include "core/procedure/step_runs.h"
 #include "sessions/session_reader.h"
 #include "tests/app/console/procedure_trial.h"
@@ -84,6 +86,9 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
   after->setValue(165.0);
   QTest::mouseClick(Find<QToolButton>("answer:after:0:3"), Qt::LeftButton);
   Find<QSpinBox>("answer:after:1")->setValue(55);
+  Find<QToolButton>("questionnaire:after:Feelings:there:6")->click();
+  Find<QToolButton>("questionnaire:after:Feelings:lab:2")->click();
+  Find<QComboBox>("questionnaire:after:Feelings:sick")->setCurrentText("slight");
   Find<QPlainTextEdit>("after_notes")->setPlainText(kNotes);
   QTest::mouseClick(Find<QPushButton>("save_answers"), Qt::LeftButton);
   ASSERT_TRUE(WaitUntil([&] { return Message().find("What was said is in") == 0; })) << Message();
@@ -100,14 +105,19 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
     if (note == nullptr || note->text == kNotes) happened.push_back(core::EventText(event.what));
   }
   const std::string second = kSecondStep;
-  EXPECT_EQ(
-      happened,
-      (std::vector<std::string>{
-          "estimate before the trial: 140 mm", "before the trial, 'How sure are you?': 6",
-          "step 'reach in' begun", "tongs taken in use", "gap from 170 to 130 mm", "gap from 130 to 200 mm",
-          "gap from 200 to 130 mm", "bookmark", "bookmark: tongs slipped", "step 'reach in' ended",
-          "step '" + second + "' begun", "step '" + second + "' ended", "estimate after the trial: 165 mm",
-          "after the trial, 'How sure are you?': 3", "after the trial, 'Effort': 55", kNotes}));
+  EXPECT_EQ(happened,
+            (std::vector<std::string>{
+                "estimate before the trial: 140 mm", "before the trial, 'How sure are you?': 6",
+                "step 'reach in' begun", "tongs taken in use", "gap from 170 to 130 mm",
+                "gap from 130 to 200 mm", "gap from 200 to 130 mm", "bookmark", "bookmark: tongs slipped",
+                "step 'reach in' ended", "step '" + second + "' begun", "step '" + second + "' ended",
+                "estimate after the trial: 165 mm", "after the trial, 'How sure are you?': 3",
+                "after the trial, 'Effort': 55", "after the trial, Feelings, 'there': 6",
+                "after the trial, Feelings, 'lab': 2", "after the trial, Feelings, 'sick': slight", kNotes}));
+  EXPECT_EQ(trial.block, "timed");
+  ASSERT_EQ(trial.questionnaires.size(), 1U);
+  const core::Questionnaire& feelings = trial.questionnaires[0];
+  EXPECT_EQ(core::ScoreOf(feelings, feelings.scores[0], core::AnswersOf(feelings, events)), 6.0);
   EXPECT_EQ(events.front().frame, 0);
   const std::vector<core::StepRun> runs = core::StepRunsOf(events);
   ASSERT_EQ(runs.size(), 2U);
@@ -120,6 +130,8 @@ TEST_F(ProcedureTest, AWholeTrialIsInTheSessionAndItsReplay) {
   const sessions::SessionReader again(folder_ / "again.db");
   EXPECT_EQ(again.events(), events);
   EXPECT_EQ(again.header().trial.survey, trial.survey);
+  EXPECT_EQ(again.header().trial.questionnaires, trial.questionnaires);
+  EXPECT_EQ(again.header().trial.block, trial.block);
 }
 
 TEST_F(ProcedureTest, WhatIsAskedCanBeSkippedWithOneKeyEach) {

@@ -23,6 +23,7 @@ void WriteProcedureTrial(const fs::path& folder) {
                            folder / camera / fmt::format("mask_{:04d}.png", i));
   test_support::WriteText(folder / "layout.toml", kProcedureLayout);
   test_support::WriteText(folder / "trial.toml", kProcedureTrial);
+  test_support::WriteText(folder / "feelings.toml", kProcedureQuestions);
 }
 
 }  // namespace elbowroom::console

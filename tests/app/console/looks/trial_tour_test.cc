@@ -89,7 +89,7 @@ class ProcedureTour : public TrialTour {
  protected:
   ProcedureTour() {
     WriteProcedureTrial(folder_.path());
-    Know({kProcedureLayout, kProcedureTrial, "cam", "closed", "slipped",
+    Know({kProcedureLayout, kProcedureTrial, kProcedureQuestions, "cam", "closed", "slipped",
           QString::fromStdString(folder_.path().string())});
   }
 };

@@ -6,7 +6,7 @@
 
 namespace elbowroom::control {
 
-inline constexpr std::array<std::string_view, 15> kTrialKeys{"rig",
+inline constexpr std::array<std::string_view, 16> kTrialKeys{"rig",
                                                              "layout",
                                                              "participant",
                                                              "task",
@@ -19,7 +19,12 @@ inline constexpr std::array<std::string_view, 15> kTrialKeys{"rig",
                                                              "record",
                                                              "condition",
                                                              "order",
+                                                             "block",
                                                              "step",
                                                              "survey"};
+
+// Of a trial file that has a `base`: all else is its base's.
+inline constexpr std::array<std::string_view, 7> kPlannedTrialKeys{
+    "base", "participant", "task", "estimate_mm", "condition", "order", "block"};
 
 }  // namespace elbowroom::control
