@@ -25,6 +25,7 @@ pkg_check_modules(GSTREAMER REQUIRED IMPORTED_TARGET gstreamer-1.0 gstreamer-app
 pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)  # its own config file asks for its tools
 find_package(pugixml REQUIRED)
+find_path(FCCP_HEADERS libfccp/csv.h REQUIRED)       # on the default path; a header alone
 find_path(OPENXR_HEADERS openxr/openxr.h REQUIRED)   # on the default path; its loader is opened when it is needed
 pkg_check_modules(CANBERRA REQUIRED IMPORTED_TARGET libcanberra)
 pkg_check_modules(DUKTAPE REQUIRED IMPORTED_TARGET duktape)

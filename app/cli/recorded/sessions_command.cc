@@ -1,4 +1,5 @@
-// elbowroom sessions show|check|export|merge: look into sessions, verify them, tables out, several into one.
+// elbowroom sessions show|check|export|merge|answer: look into sessions, verify them, tables out, several
+// into one, answers from paper in.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -8,6 +9,8 @@
 
 #include "app/cli/options/command.h"
 #include "app/cli/recorded/session_summary.h"
+#include "app/control/answering/answer_table.h"
+#include "app/control/answering/answers_to_add.h"
 #include "app/control/outcome_tracker.h"
 #include "sessions/archive/session_check.h"
 #include "sessions/archive/session_merge.h"
@@ -20,6 +23,8 @@ struct SessionsOptions {
   std::vector<std::filesystem::path> sessions;
   std::filesystem::path out;
   std::vector<std::string> tables;
+  std::filesystem::path csv;         // of answers; empty: none
+  std::vector<std::string> answers;  // ITEM=ANSWER
 };
 
 CommandResult Show(const SessionsOptions& options, const CommandContext& context) {
@@ -116,6 +121,28 @@ CommandResult Merge(const SessionsOptions& options, const CommandContext& contex
   return result;
 }
 
+CommandResult Answer(const SessionsOptions& options, const CommandContext& context) {
+  std::vector<control::GivenAnswer> given;
+  if (!options.csv.empty()) given = control::ReadAnswerTable(options.csv);
+  for (const std::string& text : options.answers) given.push_back(control::ParseGivenAnswer(text));
+  const std::vector<control::SessionAnswers> answers =
+      control::MatchAnswers(options.sessions, given, context.stop);
+  control::AddAnswers(answers);
+  CommandResult result;
+  result.json["sessions"] = nlohmann::json::array();
+  for (const control::SessionAnswers& of : answers) {
+    result.json["sessions"].push_back({{"session", of.session.string()},
+                                       {"participant", of.participant},
+                                       {"added", of.to_add.size()},
+                                       {"unchanged", of.unchanged},
+                                       {"empty", of.empty}});
+    result.text +=
+        fmt::format("{}{}: {} answers added, {} were there, {} left blank", result.text.empty() ? "" : "\n",
+                    of.session.string(), of.to_add.size(), of.unchanged, of.empty);
+  }
+  return result;
+}
+
 }  // namespace
 
 void AddSessionsCommand(CLI::App& app, Choice* choice) {
@@ -145,6 +172,22 @@ void AddSessionsCommand(CLI::App& app, Choice* choice) {
   CLI::App* merge = add("merge", "several sessions in one file, to ask questions across participants", Merge);
   merge->add_option("SESSION", options->sessions, "the sessions (S.db)")->required();
   merge->add_option("--out", options->out, "the new file; must not exist yet")->required();
+
+  CLI::App* answer = add("answer", "add what participants answered on paper to their sessions", Answer);
+  answer->add_option("SESSION", options->sessions, "the sessions (S.db)")->required();
+  answer->add_option(
+      "--csv", options->csv,
+      "a table with the columns item and answer, and of session, participant, condition, order, "
+      "block, phase, questionnaire what tells sessions and items apart");
+  answer->add_option(
+      "--give", options->answers,
+      "answers as ITEM=ANSWER, [before:|after:][QUESTIONNAIRE:]ITEM=ANSWER where several items "
+      "have one name");
+  answer->callback([=] {
+    if (options->csv.empty() && options->answers.empty())
+      throw CLI::RequiredError("--csv FILE or --give ITEM=ANSWER");
+    choice->action = [=](const CommandContext& context) { return Answer(*options, context); };
+  });
 }
 
 }  // namespace elbowroom::cli
