@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "app/cli/options/command.h"
 #include "app/control/study_plan/plan_file.h"
@@ -16,7 +17,8 @@ namespace {
 
 struct PlanOptions {
   std::filesystem::path study;
-  std::filesystem::path csv;  // empty: none is written
+  std::filesystem::path csv;     // empty: none is written
+  std::filesystem::path trials;  // folder of trial files; empty: none are written
 };
 
 std::string UnevenRemark(const control::StudyPlan& plan) {
@@ -60,10 +62,18 @@ CommandResult Run(const PlanOptions& options) {
     result.json["conditions"].push_back(
         {{"condition", condition.name}, {"participants", participants_of[condition.name].size()}});
   result.json["files"] = nlohmann::json::array();
-  if (options.csv.empty()) return result;
-  control::WritePlan(plan, options.csv);
-  result.json["files"].push_back(options.csv.string());
-  result.text += "\n" + options.csv.string();
+  std::vector<std::filesystem::path> files;
+  if (!options.trials.empty()) files = control::WriteTrialFiles(plan, options.trials);
+  for (std::size_t i = 0; i < files.size(); ++i) result.json["trials"][i]["file"] = files[i].string();
+  if (!options.csv.empty()) {
+    control::WritePlan(plan, options.csv);
+    files.push_back(options.csv);
+    result.text += "\n" + options.csv.string();
+  }
+  for (const std::filesystem::path& file : files) result.json["files"].push_back(file.string());
+  if (!options.trials.empty())
+    result.text += fmt::format("\n{}: a trial file for each, such as {}", options.trials.string(),
+                               files.front().filename().string());
   return result;
 }
 
@@ -75,6 +85,10 @@ void AddPlanCommand(CLI::App& app, Choice* choice) {
   auto options = std::make_shared<PlanOptions>();
   command->add_option("STUDY", options->study, "the study (STUDY.toml)")->required();
   command->add_option("--out", options->csv, "the plan as a table (.csv); replaced if it is there");
+  command->add_option(
+      "--trials", options->trials,
+      "folder for a trial file for each planned trial, such as P01-1.toml, which 'trial run' "
+      "and the window take; made if needed, and no file that says something else is replaced");
   command->callback([=] { choice->action = [=](const CommandContext&) { return Run(*options); }; });
 }
 

@@ -10,6 +10,7 @@
 #include "app/cli/options/value_json.h"
 #include "app/cli/recorded/sweep_options.h"
 #include "app/control/study/study.h"
+#include "app/control/study/study_block.h"
 #include "app/control/study/study_files.h"
 #include "app/control/study/study_text.h"
 
@@ -20,6 +21,7 @@ struct StudyOptions {
   control::SweepRequest request;  // its range: where --spacing gives one
   bool has_range = false;
   std::string baseline;  // empty: none
+  std::string block;     // empty: all sessions
   control::SweepEngine engine = control::SweepEngine::kLocal;
 };
 
@@ -153,12 +155,20 @@ std::string TextOf(const control::Study& study) {
 
 CommandResult Run(const StudyOptions& options, const CommandContext& context) {
   control::SweepRequest request = options.request;
+  if (!options.block.empty())
+    request.sessions = control::SessionsOfBlock(request.sessions, options.block, context.stop);
   if (!options.has_range)
     request.range = control::FullRange(request.sessions.front(), request.range.spacing, context.stop);
   CommandResult result;
   result.hint = RunEngine(options.engine, &request, context);
-  const control::Study study = control::MakeStudy(request, context.progress, context.stop, options.baseline);
+  control::Study study = control::MakeStudy(request, context.progress, context.stop, options.baseline);
+  if (!options.block.empty()) {
+    std::string note =
+        control::LeftOutNote(request.sessions.size(), options.request.sessions.size(), options.block);
+    if (!note.empty()) study.notes.insert(study.notes.begin(), std::move(note));
+  }
   result.json = StudyJson(study);
+  result.json["block"] = options.block.empty() ? nlohmann::json() : nlohmann::json(options.block);
   result.text = TextOf(study);
   result.json["files"] = nlohmann::json::array();
   for (const auto& file : control::WriteStudy(study, request.folder, context.progress, context.stop)) {
@@ -194,6 +204,8 @@ void AddStudyCommand(CLI::App& app, Choice* choice) {
                    "comparisons.csv; made if needed. What is done is kept in its cells, so that a study that "
                    "was ended early goes on")
       ->required();
+  command->add_option("--block", options->block,
+                      "only the sessions of this block of the study, as TRIAL.toml names it (default: all)");
   AddEngineOption(*command, &options->engine);
   command->callback(
       [=] { choice->action = [=](const CommandContext& context) { return Run(*options, context); }; });

@@ -31,15 +31,16 @@ std::string SessionsCsv(const Study& study) {
   std::set<std::string> measures;
   for (const StudySession& session : study.sessions)
     for (const auto& [measure, value] : session.measures) measures.insert(measure);
-  std::string csv = "session,participant,condition,order,started_at_utc,estimate_before_mm,estimate_after_mm";
+  std::string csv =
+      "session,participant,condition,order,started_at_utc,estimate_before_mm,estimate_after_mm,block";
   for (const std::string& measure : measures) csv += "," + sessions::Quoted(measure);
   csv += "\n";
   for (const StudySession& session : study.sessions) {
-    csv += fmt::format("{},{},{},{},{},{},{}", sessions::Quoted(session.path.string()),
+    csv += fmt::format("{},{},{},{},{},{},{},{}", sessions::Quoted(session.path.string()),
                        sessions::Quoted(session.participant), sessions::Quoted(session.condition),
                        session.order > 0 ? std::to_string(session.order) : "",
                        sessions::Quoted(session.started_at_utc), Field(session.estimate_before_mm),
-                       Field(session.estimate_after_mm));
+                       Field(session.estimate_after_mm), sessions::Quoted(session.block));
     for (const std::string& measure : measures) csv += "," + Field(session.Measured(measure));
     csv += "\n";
   }

@@ -5,9 +5,25 @@
 #include <vector>
 
 #include "core/procedure/answers.h"
+#include "core/procedure/scores.h"
 #include "core/procedure/step_runs.h"
 
 namespace elbowroom::control {
+namespace {
+
+// Of all questionnaires of the trial; of those before it under another name, so that both can be asked.
+void AddScores(const core::TrialInfo& trial, const std::vector<core::SessionEvent>& events,
+               Measures* measures) {
+  for (const core::Questionnaire& questionnaire : trial.questionnaires) {
+    const core::ItemAnswers answers = core::AnswersOf(questionnaire, events);
+    const std::string kind = questionnaire.when == core::AskedWhen::kBefore ? "score_before" : "score";
+    for (const core::Score& score : questionnaire.scores)
+      if (const auto value = core::ScoreOf(questionnaire, score, answers))
+        (*measures)[kind + ":" + questionnaire.name + ":" + score.name] = *value;
+  }
+}
+
+}  // namespace
 
 std::optional<double> StudySession::Measured(const std::string& measure) const {
   const auto found = measures.find(measure);
@@ -25,6 +41,7 @@ StudySession ReadStudySession(const sessions::SessionReader& session) {
   read.task = trial.task;
   read.condition = trial.condition;
   read.order = trial.order;
+  read.block = trial.block;
   read.started_at_utc = session.header().started_at_utc;
   const core::Estimates estimates = core::EstimatesOf(trial, events);
   read.estimate_before_mm = estimates.before_mm;
@@ -38,6 +55,7 @@ StudySession ReadStudySession(const sessions::SessionReader& session) {
   for (std::size_t i = 0; i < answers.size(); ++i)
     if (answers[i] && trial.survey[i].when == core::AskedWhen::kAfter)
       read.measures["answer:" + trial.survey[i].item] = *answers[i];
+  AddScores(trial, events, &read.measures);
   return read;
 }
 

@@ -14,7 +14,8 @@
 namespace elbowroom::control {
 
 // A measure's name and its value in the session: "trial_s" of frames, "touches", "step_s:NAME" of all runs of
-// a step that ended, "answer:ITEM" of the survey after the trial, "needed_mm",
+// a step that ended, "answer:ITEM" of the survey after the trial, "score:QUESTIONNAIRE:SCORE" of a
+// questionnaire after it and "score_before:QUESTIONNAIRE:SCORE" of one before it, "needed_mm",
 // "needed_without_tools_mm", "shortfall_mm": what is needed less what was estimated before.
 using Measures = std::map<std::string, double>;
 
@@ -23,9 +24,10 @@ struct StudySession {
   std::string recording_id;
   std::string participant;  // the code that the trial gives; without one the file's name
   bool has_code = true;
-  std::string task;       // empty: not given
-  std::string condition;  // empty: none
-  int order = 0;          // among the participant's trials; 0: not given
+  std::string task;        // empty: not given
+  std::string condition;   // empty: none
+  int order = 0;           // among the participant's trials; 0: not given
+  std::string block = {};  // to which part of the study it belongs; empty: none
   std::string started_at_utc;
   std::optional<double> estimate_before_mm;
   std::optional<double> estimate_after_mm;

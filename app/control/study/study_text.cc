@@ -17,6 +17,8 @@ std::string NameOfMeasure(const std::string& measure) {
   const std::string kind = measure.substr(0, colon), rest = measure.substr(colon + 1);
   if (kind == "step_s") return fmt::format("step '{}', s", rest);
   if (kind == "answer") return fmt::format("answer to '{}'", rest);
+  if (kind == "score") return fmt::format("score '{}'", rest);
+  if (kind == "score_before") return fmt::format("score '{}' before the trial", rest);
   return measure;
 }
 

@@ -3,11 +3,59 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <system_error>
 
+#include "app/control/layout_editing/layout_edit.h"
+#include "cad_import/layout/layout_fields.h"
+#include "core/error.h"
+#include "core/plain_text.h"
+#include "core/system/configuration_file.h"
+#include "core/system/file_sync.h"
 #include "core/system/whole_file.h"
 #include "sessions/tables/csv_text.h"
 
 namespace elbowroom::control {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string TrialTextOf(const PlannedTrial& trial, const fs::path& file) {
+  std::string text = fmt::format("# Planned: one of {}'s trials. Its base says all else.\n",
+                                 core::Blanked(trial.participant));
+  const auto add = [&](const char* key, const cad_import::FieldValue& value) {
+    text += fmt::format("{} = {}\n", key, cad_import::TomlOf(value));
+  };
+  add("base", FileBeside(file, trial.trial_file));
+  add("participant", trial.participant);
+  add("condition", trial.condition);
+  text += fmt::format("order = {}\n", trial.order);
+  if (!trial.block.empty()) add("block", trial.block);
+  if (!trial.task.empty()) add("task", trial.task);
+  return text;
+}
+
+void RequireFileName(const std::string& participant) {
+  if (participant.find('/') == std::string::npos && !participant.starts_with('.') &&
+      core::IsPlain(participant))
+    return;
+  throw core::Error(core::ErrorKind::kRange,
+                    fmt::format("participant '{}': no file can be named after it; take a code of letters and "
+                                "digits",
+                                core::Blanked(participant)));
+}
+
+// Whether it is there and says that; throws where it says something else.
+bool IsThere(const fs::path& file, const std::string& text) {
+  std::error_code unknown;
+  if (!fs::exists(fs::symlink_status(file, unknown))) return false;
+  const std::string name = file.string();
+  if (core::ReadConfiguration(file, name, "trial file") == text) return true;
+  throw core::Error(
+      core::ErrorKind::kFile,
+      fmt::format("{}: is there and says something else; move it away, or name another folder", name));
+}
+
+}  // namespace
 
 void WritePlan(const StudyPlan& plan, const std::filesystem::path& csv) {
   std::string text = "participant,order,condition,block,task,trial\n";
@@ -16,6 +64,21 @@ void WritePlan(const StudyPlan& plan, const std::filesystem::path& csv) {
                         sessions::Quoted(trial.condition), sessions::Quoted(trial.block),
                         sessions::Quoted(trial.task), sessions::Quoted(trial.trial_file.string()));
   core::WriteWholeFile(csv, text);
+}
+
+std::vector<fs::path> WriteTrialFiles(const StudyPlan& plan, const fs::path& folder) {
+  std::vector<fs::path> files;
+  core::PendingFiles pending;
+  for (const std::string& participant : plan.participants) RequireFileName(participant);
+  core::MakeFolder(folder);
+  for (const PlannedTrial& trial : PlannedTrials(plan)) {
+    const fs::path& file =
+        files.emplace_back(folder / fmt::format("{}-{}.toml", trial.participant, trial.order));
+    const std::string text = TrialTextOf(trial, file);
+    if (!IsThere(file, text)) pending.Write(file, text);
+  }
+  pending.RenameAll();
+  return files;
 }
 
 }  // namespace elbowroom::control

@@ -66,6 +66,15 @@ double HighestMm(const recon::VisualHull& hull) {
   return highest_mm - kFloorMm;
 }
 
+// Its score is 9.54 times what the answer is worth.
+core::Questionnaire Sickness() {
+  core::QuestionnaireItem nausea{"nausea", "Nausea", core::ItemKind::kChoice, 0.0, 3.0};
+  nausea.choices = {"none", "slight", "moderate", "severe"};
+  nausea.values = {0.0, 1.0, 2.0, 3.0};
+  return {
+      core::AskedWhen::kAfter, "sickness", {nausea}, {{"total", core::ScoreRule::kSum, {{"nausea"}}, 9.54}}};
+}
+
 }  // namespace
 
 Seen SeenOf(const Reach& reach) {
@@ -92,6 +101,8 @@ void RecordReach(const std::filesystem::path& path, const Reach& reach) {
   header.trial.estimate_mm = reach.estimate_before_mm;
   header.trial.tools = {"tongs"};
   header.trial.steps = {"reach in"};
+  header.trial.block = reach.block;
+  if (reach.sickness >= 0) header.trial.questionnaires = {Sickness()};
   header.trial.survey = {{core::AskedWhen::kAfter, "presence", 1, 7}};
   control::FramePipeline pipeline(rig, header.layout,
                                   std::vector<recon::BackgroundReference>(rig.cameras.size()), {});
@@ -120,6 +131,12 @@ void RecordReach(const std::filesystem::path& path, const Reach& reach) {
   if (reach.presence > 0)
     writer.Append(core::SessionEvent{
         kFrames - 1, end_s, core::SurveyAnswered{core::AskedWhen::kAfter, "presence", reach.presence}});
+  if (reach.sickness >= 0)
+    writer.Append(
+        core::SessionEvent{kFrames - 1, end_s,
+                           core::QuestionnaireAnswered{
+                               core::AskedWhen::kAfter, "sickness", "nausea",
+                               Sickness().items[0].choices.at(static_cast<std::size_t>(reach.sickness))}});
   writer.Finish(tracker.Outcome());
 }
 

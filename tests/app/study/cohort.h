@@ -19,6 +19,8 @@ struct Reach {
   double step_s = 0.5;              // how long the step "reach in" takes
   int presence = 0;                 // the answer to "presence", 1 to 7; 0: none
   double lid_mm = 250.0;            // where the lid is in the trial; below what is reached it is touched
+  int sickness = -1;                // the answer to "sickness: nausea", worth 0 to 3; below 0: not asked
+  std::string block = {};           // of the study
 };
 
 // What the silhouettes show: the highest point of the hull above the floor, mm.

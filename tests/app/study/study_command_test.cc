@@ -9,6 +9,7 @@
 #include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_file.h"
 
 namespace elbowroom {
 namespace {
@@ -69,6 +70,57 @@ TEST_F(StudyCommand, ToldInWordsIsATable) {
   for (const char* word :
        {"'lid_gap', mm: 1 participant, 1 session", "needed without", "mean shortfall -", "note: "})
     EXPECT_NE(run.out.find(word), std::string::npos) << word << " in\n" << run.out;
+}
+
+TEST_F(StudyCommand, ABlockIsStudiedAlone) {
+  tests::RecordReach(folder_ / "s.db", {.participant = "P1", .estimate_before_mm = 100.0, .block = "timed"});
+  tests::RecordReach(folder_ / "t.db",
+                     {.participant = "P1", .estimate_before_mm = 90.0, .block = "practice"});
+  const std::string other = (folder_ / "t.db").string();
+  const ProgramRun run = Study({other, "--json", "--block", "timed", "--spacing", "lid_gap=60:120:30"});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto study = nlohmann::json::parse(run.out);
+  EXPECT_EQ(study["sessions"], 1);
+  EXPECT_EQ(study["block"], "timed");
+  EXPECT_EQ(study["rows"][0]["estimate_before_mm"], 100.0);
+  EXPECT_EQ(study["notes"][0],
+            "1 of 2 sessions are of another block than 'timed', or of none: they are left out");
+  const ProgramRun wrong = Study({other, "--block", "tiemd"});
+  EXPECT_EQ(wrong.exit_status, 1);
+  EXPECT_NE(wrong.err.find("no session is of block 'tiemd'; choose one that there is: 'practice', 'timed'"),
+            std::string::npos)
+      << wrong.err;
+}
+
+// Two by two in two conditions, so that there is a test.
+TEST_F(StudyCommand, ScoresAreMeasures) {
+  std::vector<std::string> more{"--json", "--spacing", "lid_gap=60:120:30"};
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = i == 0 ? "s" : "s" + std::to_string(i);
+    tests::RecordReach(folder_ / (name + ".db"), {.participant = "P" + std::to_string(i),
+                                                  .condition = i < 2 ? "bare" : "gloves",
+                                                  .hand_mm = 60.0 + 5.0 * i,
+                                                  .sickness = i});
+    if (i > 0) more.push_back((folder_ / (name + ".db")).string());
+  }
+  const ProgramRun run = Study(more);
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto study = nlohmann::json::parse(run.out);
+  const auto of_score = [](const nlohmann::json& entry, const char* key) {
+    return entry[key] == "score:sickness:total";
+  };
+  const auto& comparisons = study["comparisons"];
+  const auto& correlations = study["correlations"];
+  const auto compared = std::find_if(comparisons.begin(), comparisons.end(),
+                                     [&](const nlohmann::json& entry) { return of_score(entry, "measure"); });
+  ASSERT_TRUE(compared != comparisons.end());
+  EXPECT_DOUBLE_EQ((*compared)["mean_a"].get<double>(), 9.54 * 0.5);
+  EXPECT_DOUBLE_EQ((*compared)["mean_b"].get<double>(), 9.54 * 2.5);
+  EXPECT_TRUE(std::any_of(correlations.begin(), correlations.end(),
+                          [&](const nlohmann::json& entry) { return of_score(entry, "a"); }));
+  const std::string csv = test_support::ReadText(folder_ / "out/sessions.csv");
+  EXPECT_NE(csv.find("score:sickness:total"), std::string::npos) << csv.substr(0, 300);
+  EXPECT_NE(test_support::ReadText(folder_ / "out/report.html").find("sickness:total"), std::string::npos);
 }
 
 }  // namespace

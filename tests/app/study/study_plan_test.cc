@@ -1,6 +1,7 @@
 // STUDY.toml: what it may say, and the balanced plan that comes of it.
 #include "app/control/study_plan/study_plan.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "app/control/trial_setup.h"
 #include "core/error.h"
 #include "tests/support/places.h"
 #include "tests/support/run_program.h"
@@ -102,6 +104,47 @@ TEST_F(StudyPlanTest, AsAProgramItIsATable) {
   EXPECT_TRUE(csv.starts_with("participant,order,condition,block,task,trial\nP01,1,")) << csv.substr(0, 200);
   const std::string text = Plan({}).out;
   EXPECT_EQ(std::ranges::count(text, '\n'), 12) << text;
+}
+
+TEST_F(StudyPlanTest, EachTrialGetsAFileThatNamesItsBase) {
+  Write(kWithin);
+  const auto run = Plan({"--json", "--trials", (folder_ / "trials").string()});
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json["files"].size(), 72U);
+  for (const auto& trial : json["trials"]) {
+    const fs::path file = trial["file"].get<std::string>();
+    EXPECT_EQ(file.filename(),
+              fmt::format("{}-{}.toml", trial["participant"].get<std::string>(), trial["order"].get<int>()));
+    const core::TrialInfo info = ReadTrialInfo(file);
+    EXPECT_EQ(info.participant, trial["participant"]);
+    EXPECT_EQ(info.condition, trial["condition"]);
+    EXPECT_EQ(info.order, trial["order"]);
+    EXPECT_EQ(info.block, trial["block"]);
+    EXPECT_EQ(info.task, trial["task"]);
+    EXPECT_NE(test_support::ReadText(file).find(trial["condition"] == "thick" ? "base = \"../THICK.toml\""
+                                                                              : "base = \"../TRIAL.toml\""),
+              std::string::npos);
+  }
+  const std::string first = json["files"][0];
+  const std::string text = test_support::ReadText(first);
+  EXPECT_EQ(Plan({"--trials", (folder_ / "trials").string()}).exit_status, 0) << "the same plan again";
+  EXPECT_EQ(test_support::ReadText(first), text);
+}
+
+TEST_F(StudyPlanTest, NoFileThatSaysSomethingElseIsReplaced) {
+  Write(kWithin);
+  test_support::WriteText(folder_ / "P12-6.toml", "rig = \"mine.yml\"\n");
+  const auto run = Plan({"--trials", folder_.path().string()});
+  EXPECT_EQ(run.exit_status, 1);
+  EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+  EXPECT_NE(run.err.find("P12-6.toml: is there and says something else"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(folder_ / "P01-1.toml")) << "all or none";
+  EXPECT_EQ(test_support::ReadText(folder_ / "P12-6.toml"), "rig = \"mine.yml\"\n");
+  std::string text = kWithin;
+  Write(text.replace(text.find("12"), 2, "[\"../P\"]"));
+  EXPECT_NE(Plan({"--trials", (folder_ / "trials").string()}).err.find("no file can be named after it"),
+            std::string::npos);
 }
 
 TEST_F(StudyPlanTest, AnUnevenNumberIsSaid) {
