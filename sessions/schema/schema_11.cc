@@ -99,6 +99,7 @@ DROP TABLE event;
 ALTER TABLE event_11 RENAME TO event;
 CREATE INDEX event_by_frame ON event (frame_index);
 CREATE INDEX event_by_step ON event (step_index, frame_index, event_id);
+CREATE INDEX event_by_question ON event (question_index, frame_index, event_id);
 )sql";
 
 // Those of schema 10 but for v_event, which has one kind more.

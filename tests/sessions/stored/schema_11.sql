@@ -490,6 +490,8 @@ CREATE INDEX event_by_frame ON event (frame_index);
 
 CREATE INDEX event_by_step ON event (step_index, frame_index, event_id);
 
+CREATE INDEX event_by_question ON event (question_index, frame_index, event_id);
+
 CREATE VIEW v_event AS
 SELECT e.event_id, e.frame_index, e.time_s, e.kind,
   CASE e.kind
