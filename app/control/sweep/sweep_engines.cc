@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/control/sweep/engine_scripts.h"
 #include "app/control/sweep/sweep_cells.h"
 #include "core/error.h"
 #include "core/system/child_process.h"
@@ -30,88 +31,31 @@ using namespace std::chrono_literals;
 constexpr std::array<std::string_view, 3> kEngineNames = {"local", "parallel", "slurm"};
 // How long an engine's program may take to end its processes, before it is killed.
 constexpr std::chrono::seconds kTimeToEnd{5};
+// The folder of cells is listed for the progress: so seldom that it costs a twentieth of the time, also where
+// thousands of sessions lie on a network file system.
+constexpr std::chrono::milliseconds kLeastPause{500};
+constexpr int kPausesAListing = 20;
+// What sbatch itself complains of, in the engine's folder.
+constexpr const char* kSaid = "sbatch.said";
 
-// The program of that name in PATH. Throws: Error{kFile}.
-fs::path ProgramOf(SweepEngine engine, const std::string& name, const char* package) {
+// The program of that name in PATH; nothing: there is none.
+std::optional<fs::path> InPath(const std::string& name) {
   const char* variable = std::getenv("PATH");
   std::istringstream folders(variable != nullptr ? variable : "");
   for (std::string folder; std::getline(folders, folder, ':');) {
     const fs::path program = fs::path(folder.empty() ? "." : folder) / name;
     if (::access(program.c_str(), X_OK) == 0 && fs::is_regular_file(program)) return program;
   }
+  return std::nullopt;
+}
+
+// Throws: Error{kFile}: there is none.
+fs::path ProgramOf(SweepEngine engine, const std::string& name, const char* package) {
+  if (const auto program = InPath(name)) return *program;
   throw core::Error(core::ErrorKind::kFile,
                     fmt::format("--engine {}: no program '{}' is in PATH; install the Debian package {}, or "
                                 "use --engine local",
                                 ToString(engine), name, package));
-}
-
-// As one word of a shell's command.
-std::string ShellWord(const std::string& text) {
-  if (text.find('\n') != std::string::npos)
-    throw core::Error(core::ErrorKind::kFile,
-                      fmt::format("'{}' has a line's end in its name, which an engine can't pass on; rename "
-                                  "it, or use --engine local",
-                                  text));
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
-// A line for each session: the command that has its cells kept.
-std::string CommandsOf(const SweepRequest& request, const std::string& threads) {
-  const std::string program = fs::read_symlink("/proc/self/exe").string();
-  const SpacingRange& range = request.range;
-  std::string revisions;
-  for (const SweepRevision& revision : request.revisions)
-    for (const std::string& argument : revision.arguments)
-      revisions += fmt::format("--revision {} ", ShellWord(argument));
-  std::string commands;
-  for (const fs::path& session : request.sessions)
-    commands += fmt::format(
-        "{} sweep {} --spacing {} {}--out {} --threads {} --cells-only\n", ShellWord(program),
-        ShellWord(fs::absolute(session).string()),
-        ShellWord(fmt::format("{}={}:{}:{}", range.spacing, range.from_mm, range.to_mm, range.step_mm)),
-        revisions, ShellWord(fs::absolute(request.folder).string()), threads);
-  return commands;
-}
-
-// A task runs the line of `commands` that it is given the number of. What the shell itself says of a process
-// that was killed isn't the process's complaint.
-std::string TaskScript() {
-  return fmt::format(
-      R"sh(#!/bin/bash
-cd "$(dirname "$0")" || exit 1
-command=$(sed -n "${{1}}p" commands)
-exec 3>&2 2>/dev/null
-trap 'kill -TERM "$process"; wait "$process"; exit 143' TERM INT
-for attempt in $(seq {}); do
-  eval "exec $command" 2>&3 &
-  process=$!
-  wait "$process"
-  status=$?
-  ((status > 128)) || break
-  echo "task $1, attempt $attempt: killed by signal $((status - 128))" >>killed
-done
-exit "$status"
-)sh",
-      kMostAttempts);
-}
-
-// The script of an array of jobs, one a session; it is submitted from anywhere.
-std::string SlurmScript(const SweepRequest& request, const fs::path& folder, const std::string& name,
-                        int threads) {
-  return fmt::format(
-      "#!/bin/bash\n"
-      "#SBATCH --job-name={}\n"
-      "#SBATCH --array=1-{}\n"
-      "#SBATCH --ntasks=1\n"
-      "#SBATCH --cpus-per-task={}\n"
-      "#SBATCH --output=/dev/null\n"
-      "#SBATCH --requeue\n"
-      "cd {} || exit 1\n"
-      "exec /bin/bash task \"$SLURM_ARRAY_TASK_ID\" >\"$SLURM_ARRAY_TASK_ID.out\" "
-      "2>\"$SLURM_ARRAY_TASK_ID.err\"\n",
-      name, request.sessions.size(), threads, ShellWord(folder.string()));
 }
 
 // What the process complained of that complained first; empty: none did. The others may only say that they
@@ -128,6 +72,27 @@ std::string FirstComplaint(const fs::path& folder) {
       if (!line.empty()) return core::PrintableLine(line, 500);
   }
   return {};
+}
+
+// The program with its output in these files; it is the process itself, and not a shell's child.
+core::ChildProgram WithOutputIn(const fs::path& out, const fs::path& err, const fs::path& program,
+                                const std::vector<std::string>& arguments) {
+  core::ChildProgram child{"/bin/bash",
+                           {"bash", "-c", "exec >\"$1\" 2>\"$2\"; shift 2; exec \"$@\"", "bash", out.string(),
+                            err.string(), program.string()}};
+  child.arguments.insert(child.arguments.end(), arguments.begin(), arguments.end());
+  return child;
+}
+
+std::string HostName() {
+  std::array<char, 256> name = {};
+  ::gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+std::string TextIn(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 // Ends the engine's program, and what it started. GNU parallel ends its jobs at the second request.
@@ -163,20 +128,25 @@ class EngineRun {
     const bool is_slurm = engine_ == SweepEngine::kSlurm;
     core::WriteWholeFile(folder_ / "commands",
                          CommandsOf(request_, is_slurm ? std::to_string(threads_) : "1"));
-    core::WriteWholeFile(folder_ / "task", TaskScript());
+    core::WriteWholeFile(folder_ / "task", TaskScript(kMostAttempts));
     std::string numbers;
     for (std::size_t i = 1; i <= request_.sessions.size(); ++i) numbers += fmt::format("{}\n", i);
     core::WriteWholeFile(folder_ / "tasks", numbers);
-    if (is_slurm) core::WriteWholeFile(Script(), SlurmScript(request_, folder_, name_, threads_));
+    if (is_slurm)
+      core::WriteWholeFile(Script(), SlurmScript(request_, folder_, name_, threads_, MostTasks()));
   }
 
   // How many processes were begun again.
   std::int64_t Run(const core::Progress& progress, const std::stop_token& stop) {
     core::Child child(Command());
     core::Woken woken = core::Woken::kTooLate;
+    std::chrono::steady_clock::duration pause = kLeastPause;
     while (woken == core::Woken::kTooLate) {
-      woken = child.WaitForEnd(stop, std::chrono::steady_clock::now() + 500ms);
+      const auto begin = std::chrono::steady_clock::now();
       progress.Report(std::ssize(CellFilesIn(request_.folder)), 0, "files of cells in the folder");
+      const auto now = std::chrono::steady_clock::now();
+      pause = std::max<std::chrono::steady_clock::duration>(kLeastPause, kPausesAListing * (now - begin));
+      woken = child.WaitForEnd(stop, now + pause);
     }
     if (woken == core::Woken::kStopped) {
       End(&child);
@@ -190,6 +160,7 @@ class EngineRun {
       why = fmt::format(
           "a process was killed {} times; '{}' says by what: is there enough memory for {} processes?",
           kMostAttempts, (folder_ / "killed").string(), threads_);
+    if (why.empty()) why = core::PrintableLine(TextIn(folder_ / kSaid), 500);
     if (why.empty())
       why = fmt::format("'{}' {}; what it left is in '{}'", program_.string(), core::TextOfEnd(status),
                         folder_.string());
@@ -200,7 +171,8 @@ class EngineRun {
   [[nodiscard]] fs::path Script() const { return folder_ / "sweep.sbatch"; }
 
   [[nodiscard]] core::ChildProgram Command() const {
-    if (engine_ == SweepEngine::kSlurm) return {program_, {"sbatch", "--wait", Script().string()}};
+    if (engine_ == SweepEngine::kSlurm)
+      return WithOutputIn(folder_ / "sbatch.out", folder_ / kSaid, program_, {"--wait", Script().string()});
     return {program_,
             {"parallel", "--will-cite", "--jobs", std::to_string(threads_), "--halt", "now,fail=1",
              "--results", (folder_ / "{#}").string(), "--arg-file", (folder_ / "tasks").string(), "/bin/bash",
@@ -209,11 +181,20 @@ class EngineRun {
 
   // Each attempt that was killed has a line.
   [[nodiscard]] std::int64_t CountKilled() const {
-    std::ifstream file(folder_ / "killed");
-    return std::count(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>(), '\n');
+    return std::ranges::count(TextIn(folder_ / "killed"), '\n');
   }
 
-  // By its name, which is this process's alone.
+  // Of an array, as the cluster says; of one that can't be asked, as many as by Slurm's own settings.
+  [[nodiscard]] int MostTasks() const {
+    const auto scontrol = InPath("scontrol");
+    if (!scontrol) return MostArrayTasks("");
+    const fs::path settings = folder_ / "cluster";
+    core::Child child(WithOutputIn(settings, folder_ / "cluster.said", *scontrol, {"show", "config"}));
+    (void)child.WaitForEnd({}, std::chrono::steady_clock::now() + kTimeToEnd);
+    return MostArrayTasks(TextIn(settings));
+  }
+
+  // By its name, which is this process's alone, also among those of other machines.
   void CancelArray() const {
     const fs::path scancel = ProgramOf(engine_, "scancel", "slurm-client");
     core::Child child({scancel, {"scancel", "--name", name_}});
@@ -224,7 +205,7 @@ class EngineRun {
   const SweepRequest& request_;
   const int threads_;
   const fs::path folder_;
-  const std::string name_ = fmt::format("elbowroom-sweep-{}", ::getpid());
+  const std::string name_ = fmt::format("elbowroom-sweep-{}-{}", HostName(), ::getpid());
   fs::path program_;
 };
 

@@ -46,7 +46,7 @@ std::string HostName() {
   return whole.substr(0, whole.find('.'));
 }
 
-std::string Configuration(const fs::path& folder, int processors) {
+std::string Configuration(const fs::path& folder, int processors, int max_array_size) {
   const std::string host = HostName();
   return fmt::format(
       "ClusterName=loopback\n"
@@ -62,10 +62,10 @@ std::string Configuration(const fs::path& folder, int processors) {
       "SelectType=select/cons_tres\nSelectTypeParameters=CR_CPU\n"
       "SchedulerType=sched/builtin\nSchedulerParameters=batch_sched_delay=0,sched_interval=1\n"
       "MpiDefault=none\nSwitchType=switch/none\nMailProg=/bin/true\n"
-      "ReturnToService=2\nKillWait=2\n"
+      "ReturnToService=2\nKillWait=2\nMaxArraySize={5}\n"
       "NodeName={0} NodeAddr=127.0.0.1 CPUs={4} State=UNKNOWN\n"
       "PartitionName=all Nodes={0} Default=YES MaxTime=INFINITE State=UP\n",
-      host, FreePort(), FreePort(), folder.string(), processors);
+      host, FreePort(), FreePort(), folder.string(), processors, max_array_size);
 }
 
 std::string EndOf(const fs::path& log) {
@@ -78,7 +78,7 @@ std::string EndOf(const fs::path& log) {
 }  // namespace
 
 std::unique_ptr<OneNodeSlurm> OneNodeSlurm::Start(const fs::path& folder, int processors,
-                                                  std::string* why_not) {
+                                                  std::string* why_not, int max_array_size) {
   for (const char* program : {kController, kNode, kInfo, kList}) {
     if (fs::exists(program)) continue;
     *why_not = std::string("no ") + program;
@@ -90,7 +90,7 @@ std::unique_ptr<OneNodeSlurm> OneNodeSlurm::Start(const fs::path& folder, int pr
   }
   for (const char* made : {"state", "spool"}) fs::create_directories(folder / made);
   const std::string file = (folder / "slurm.conf").string();
-  test_support::WriteText(file, Configuration(folder, processors));
+  test_support::WriteText(file, Configuration(folder, processors, max_array_size));
   std::unique_ptr<OneNodeSlurm> slurm(new OneNodeSlurm(folder));
   slurm->controller_ =
       std::make_unique<core::Child>(core::ChildProgram{kController, {"slurmctld", "-D", "-f", file}});

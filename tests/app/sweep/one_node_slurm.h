@@ -14,10 +14,12 @@ namespace elbowroom::tests {
 // Its two daemons run while this lives; they are root's, since slurmd starts jobs for others.
 class OneNodeSlurm {
  public:
-  // In `folder`, with `processors` to share among jobs. Null, and why: the daemons aren't installed, this
-  // user isn't root, or the node takes no jobs within half a minute.
+  // In `folder`, with `processors` to share among jobs; `max_array_size` as in slurm.conf, where 1001 is
+  // Slurm's own. Null, and why: the daemons aren't installed, this user isn't root, or the node takes no jobs
+  // within half a minute.
   [[nodiscard]] static std::unique_ptr<OneNodeSlurm> Start(const std::filesystem::path& folder,
-                                                           int processors, std::string* why_not);
+                                                           int processors, std::string* why_not,
+                                                           int max_array_size = 1001);
 
   // For programs that are to find it.
   [[nodiscard]] std::map<std::string, std::string> Environment() const;

@@ -5,16 +5,15 @@
 #include <signal.h>  // NOLINT: kill
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <set>
+#include <map>
 #include <thread>
 #include <utility>
 
+#include "app/control/sweep/engine_scripts.h"
+#include "core/error.h"
+#include "tests/app/sweep/killed_workers.h"
 #include "tests/app/sweep/one_node_slurm.h"
 #include "tests/app/sweep/swept_sessions.h"
 #include "tests/support/places.h"
@@ -29,8 +28,11 @@ using ::testing::HasSubstr;
 
 constexpr const char* kRange = "payload_a_gap=140:240:20";
 
-bool IsInstalled(const char* program) {
-  return std::system((std::string("command -v ") + program + " >/dev/null").c_str()) == 0;
+// The sessions whose first process is killed as soon as it is seen.
+std::map<fs::path, std::chrono::milliseconds> AtOnce(const std::vector<fs::path>& sessions) {
+  std::map<fs::path, std::chrono::milliseconds> delays;
+  for (const fs::path& session : sessions) delays[session] = {};
+  return delays;
 }
 
 class SweepEngines : public testing::Test {
@@ -47,7 +49,7 @@ class SweepEngines : public testing::Test {
 };
 
 TEST_F(SweepEngines, GnuParallelGivesTheSameFiles) {
-  if (!IsInstalled("parallel")) GTEST_SKIP() << "NOT TESTED: GNU parallel is not installed";
+  if (!fs::exists("/usr/bin/parallel")) GTEST_SKIP() << "NOT TESTED: GNU parallel is not installed";
   const auto by_parallel =
       RunSweep(sessions_, kRange, folder_ / "parallel", {"--engine", "parallel", "--threads", "2", "--json"});
   ASSERT_EQ(by_parallel.exit_status, 0) << by_parallel.err;
@@ -60,56 +62,10 @@ TEST_F(SweepEngines, GnuParallelGivesTheSameFiles) {
   ExpectSameSweep(folder_ / "parallel", folder_ / "local");
 }
 
-// A process's arguments, with a space between.
-std::string CommandOf(const fs::path& process) {
-  std::ifstream file(process / "cmdline");
-  std::string command(100'000, '\0');
-  file.read(command.data(), std::ssize(command));  // a process that has just ended gives nothing
-  command.resize(static_cast<std::size_t>(file.gcount()));
-  std::ranges::replace(command, '\0', ' ');
-  return command;
-}
-
-// Kills the processes that keep cells of these sessions in `out`. `once`: those that were killed, which
-// aren't again; null: each is, whenever it is seen.
-void KillProcessesOf(const fs::path& out, const std::vector<fs::path>& sessions, std::set<fs::path>* once) {
-  for (const auto& entry : fs::directory_iterator("/proc")) {
-    const std::string name = entry.path().filename().string();
-    if (!std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0; })) continue;
-    const std::string command = CommandOf(entry.path());
-    if (!command.starts_with(test_support::ProgramFile().string()) ||
-        command.find("--cells-only") == std::string::npos || command.find(out.string()) == std::string::npos)
-      continue;
-    for (const fs::path& session : sessions) {
-      if (command.find(session.string()) == std::string::npos || (once != nullptr && once->contains(session)))
-        continue;
-      if (::kill(std::stoi(name), SIGKILL) == 0 && once != nullptr) once->insert(session);
-    }
-  }
-}
-
-// While it lives, the first process of each of these sessions is killed.
-class FirstAttemptsKilled {
- public:
-  FirstAttemptsKilled(fs::path out, std::vector<fs::path> sessions)
-      : thread_([this, out = std::move(out), sessions = std::move(sessions)](const std::stop_token& stop) {
-          while (!stop.stop_requested()) KillProcessesOf(out, sessions, &killed_);
-        }) {}
-  [[nodiscard]] std::size_t Kills() {
-    thread_.request_stop();
-    thread_.join();
-    return killed_.size();
-  }
-
- private:
-  std::set<fs::path> killed_;
-  std::jthread thread_;
-};
-
 TEST_F(SweepEngines, ProcessesThatAreKilledLoseAndDoubleNothing) {
-  if (!IsInstalled("parallel")) GTEST_SKIP() << "NOT TESTED: GNU parallel is not installed";
+  if (!fs::exists("/usr/bin/parallel")) GTEST_SKIP() << "NOT TESTED: GNU parallel is not installed";
   const fs::path out = folder_ / "killed";
-  FirstAttemptsKilled killer(out, {sessions_[0], sessions_[2]});
+  FirstAttemptsKilled killer(out, AtOnce({sessions_[0], sessions_[2]}));
   const auto run = RunSweep(sessions_, kRange, out, {"--engine", "parallel", "--threads", "2", "--json"});
   const std::size_t kills = killer.Kills();
   ASSERT_EQ(run.exit_status, 0) << run.err;
@@ -122,11 +78,11 @@ TEST_F(SweepEngines, ProcessesThatAreKilledLoseAndDoubleNothing) {
 
 // One that is killed at each attempt, as by a machine without enough memory.
 TEST_F(SweepEngines, AProcessThatIsKilledEachTimeEndsTheSweep) {
-  if (!IsInstalled("parallel")) GTEST_SKIP() << "NOT TESTED: GNU parallel is not installed";
+  if (!fs::exists("/usr/bin/parallel")) GTEST_SKIP() << "NOT TESTED: GNU parallel is not installed";
   const fs::path out = folder_ / "out";
   std::stop_source stop;
   std::jthread killer([&] {
-    while (!stop.stop_requested()) KillProcessesOf(out, {sessions_[0]}, nullptr);
+    while (!stop.stop_requested()) KillEachWorker(out, sessions_[0]);
   });
   const auto run = RunSweep({sessions_[0]}, kRange, out, {"--engine", "parallel"});
   stop.request_stop();
@@ -143,7 +99,7 @@ TEST_F(SweepEngines, ASlurmOfOneNodeGivesTheSameFiles) {
   test_support::RunOptions here;
   here.environment = slurm->Environment();
   const fs::path out = folder_ / "slurm";
-  FirstAttemptsKilled killer(out, {sessions_[1]});
+  FirstAttemptsKilled killer(out, AtOnce({sessions_[1]}));
   const auto run = RunSweep(sessions_, kRange, out, {"--engine", "slurm", "--threads", "1", "--json"}, here);
   EXPECT_EQ(killer.Kills(), 1U);
   ASSERT_EQ(run.exit_status, 0) << run.err;
@@ -154,9 +110,81 @@ TEST_F(SweepEngines, ASlurmOfOneNodeGivesTheSameFiles) {
   EXPECT_EQ(CellFiles(out), CellFiles(folder_ / "local"));
 }
 
-TEST_F(SweepEngines, EndedItTakesItsArrayOutOfSlurm) {
+// Slurm takes no task of an array with a number from MaxArraySize on: two tasks take the five sessions in
+// turn.
+TEST_F(SweepEngines, ASlurmTakesMoreSessionsThanAnArrayHasTasks) {
+  std::string why_not;
+  const auto slurm = OneNodeSlurm::Start(folder_ / "cluster", 2, &why_not, 3);
+  if (!slurm) GTEST_SKIP() << "NOT TESTED: " << why_not;
+  for (const core::FrameIndex first : {29, 32}) {
+    sessions_.push_back(folder_ / ("s" + std::to_string(first) + ".db"));
+    RecordTaskFrames(sessions_.back(), first);
+  }
+  test_support::RunOptions here;
+  here.environment = slurm->Environment();
+  const fs::path out = folder_ / "slurm";
+  FirstAttemptsKilled killer(out, AtOnce({sessions_[0], sessions_[4]}));  // both of the first task
+  const auto run = RunSweep(sessions_, kRange, out, {"--engine", "slurm", "--threads", "1"}, here);
+  EXPECT_EQ(killer.Kills(), 2U);
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_THAT(test_support::ReadText(out / "engine" / "sweep.sbatch"), HasSubstr("#SBATCH --array=1-2\n"));
+  EXPECT_THAT(run.err, HasSubstr("2 times a process was killed"));
+  ASSERT_EQ(RunSweep(sessions_, kRange, folder_ / "local").exit_status, 0);
+  ExpectSameSweep(out, folder_ / "local");
+  EXPECT_EQ(CellFiles(out), CellFiles(folder_ / "local"));
+}
+
+// The other sessions of its task are judged all the same, and kept.
+TEST_F(SweepEngines, ASessionThatFailsEndsNoOtherOfItsTask) {
+  const fs::path folder = folder_ / "engine";
+  fs::create_directory(folder);
+  test_support::WriteText(folder / "task", control::TaskScript(3));
+  test_support::WriteText(folder / "commands",
+                          "touch one\nfalse\ntouch three\nbash -c 'exit 7'\ntouch five\n");
+  const auto run = [&](const std::vector<std::string>& which) {
+    std::vector<std::string> arguments{(folder / "task").string()};
+    arguments.insert(arguments.end(), which.begin(), which.end());
+    return test_support::RunProgram("/bin/bash", arguments).exit_status;
+  };
+  EXPECT_EQ(run({"2", "2"}), 1) << "of the first that failed";
+  EXPECT_EQ(run({"4"}), 7);
+  EXPECT_EQ(run({"3"}), 0);
+  EXPECT_TRUE(fs::exists(folder / "three"));
+  EXPECT_FALSE(fs::exists(folder / "five"));
+  EXPECT_EQ(run({"1", "2"}), 0);
+  EXPECT_TRUE(fs::exists(folder / "one") && fs::exists(folder / "five"));
+}
+
+TEST(SlurmArray, HasNoMoreTasksThanTheClusterTakes) {
+  using control::MostArrayTasks;
+  EXPECT_EQ(MostArrayTasks(""), 1000);
+  EXPECT_EQ(MostArrayTasks("MailProg = /bin/mail\nMaxArraySize            = 1001\nMaxJobCount = 10000\n"),
+            1000);
+  EXPECT_EQ(MostArrayTasks("MaxArraySize = 4000001"), 1000);
+  EXPECT_EQ(MostArrayTasks("MaxArraySize = 51\nMaxJobCount = 10000"), 50);
+  EXPECT_EQ(MostArrayTasks("MaxArraySize = 1001\nMaxJobCount = 20\n"), 20);
+  EXPECT_EQ(MostArrayTasks("MaxArraySize =\nMaxArraySize = many\n"), 1000);
+  for (const char* none : {"MaxArraySize = 0", "MaxArraySize = 1"})
+    EXPECT_THROW((void)MostArrayTasks(none), core::Error) << none;
+}
+
+TEST_F(SweepEngines, WhatSbatchComplainsOfIsTold) {
   std::string why_not;
   const auto slurm = OneNodeSlurm::Start(folder_ / "cluster", 1, &why_not);
+  if (!slurm) GTEST_SKIP() << "NOT TESTED: " << why_not;
+  test_support::RunOptions here;
+  here.environment = slurm->Environment();
+  const auto run =
+      RunSweep(sessions_, kRange, folder_ / "out", {"--engine", "slurm", "--threads", "64"}, here);
+  EXPECT_EQ(run.exit_status, 1) << run.out;
+  EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("sbatch: error")) << "the node has one processor";
+}
+
+// Of more sessions than an array has tasks.
+TEST_F(SweepEngines, EndedItTakesItsArrayOutOfSlurm) {
+  std::string why_not;
+  const auto slurm = OneNodeSlurm::Start(folder_ / "cluster", 1, &why_not, 3);
   if (!slurm) GTEST_SKIP() << "NOT TESTED: " << why_not;
   test_support::RunOptions ended;
   ended.environment = slurm->Environment();
@@ -172,7 +200,7 @@ TEST_F(SweepEngines, EndedItTakesItsArrayOutOfSlurm) {
 }
 
 TEST_F(SweepEngines, WhatAProcessComplainsOfIsTold) {
-  if (!IsInstalled("parallel")) GTEST_SKIP() << "NOT TESTED: GNU parallel is not installed";
+  if (!fs::exists("/usr/bin/parallel")) GTEST_SKIP() << "NOT TESTED: GNU parallel is not installed";
   test_support::RunOptions tiny;
   // The cells' folder can't be made, because a file is there.
   fs::create_directory(folder_ / "out");

@@ -25,20 +25,6 @@ using ::testing::HasSubstr;
 
 constexpr const char* kRange = "payload_a_gap=140:240:20";
 
-// As STL text, in mm.
-void WriteStl(const core::TriangleMesh& mesh, const fs::path& file) {
-  std::string text = "solid part\n";
-  for (const auto& triangle : mesh.triangles) {
-    text += "facet normal 0 0 0\nouter loop\n";
-    for (const std::int32_t corner : triangle) {
-      const Eigen::Vector3d& x = mesh.vertices_mm[static_cast<std::size_t>(corner)];
-      text += fmt::format("vertex {} {} {}\n", x.x(), x.y(), x.z());
-    }
-    text += "endloop\nendfacet\n";
-  }
-  test_support::WriteText(file, text + "endsolid part\n");
-}
-
 class SweepRevisions : public testing::Test {
  protected:
   void SetUp() override {

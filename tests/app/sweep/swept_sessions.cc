@@ -1,5 +1,6 @@
 #include "tests/app/sweep/swept_sessions.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "app/control/demo_parts.h"
@@ -51,6 +52,19 @@ test_support::ProgramRun RunSweep(const std::vector<std::filesystem::path>& sess
   arguments.insert(arguments.end(), {"--spacing", spacing, "--out", out.string()});
   arguments.insert(arguments.end(), more.begin(), more.end());
   return test_support::RunProgram(test_support::ProgramFile(), arguments, options);
+}
+
+void WriteStl(const core::TriangleMesh& mesh, const std::filesystem::path& file) {
+  std::string text = "solid part\n";
+  for (const auto& triangle : mesh.triangles) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const std::int32_t corner : triangle) {
+      const Eigen::Vector3d& x = mesh.vertices_mm[static_cast<std::size_t>(corner)];
+      text += fmt::format("vertex {} {} {}\n", x.x(), x.y(), x.z());
+    }
+    text += "endloop\nendfacet\n";
+  }
+  test_support::WriteText(file, text + "endsolid part\n");
 }
 
 std::set<std::string> CellFiles(const std::filesystem::path& out) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "core/triangle_mesh.h"
 #include "tests/support/run_program.h"
 
 namespace elbowroom::tests {
@@ -21,6 +22,9 @@ int RecordTaskFrames(const std::filesystem::path& path, core::FrameIndex first =
                                                 const std::string& spacing, const std::filesystem::path& out,
                                                 const std::vector<std::string>& more = {},
                                                 const test_support::RunOptions& options = {});
+
+// As STL text, in mm.
+void WriteStl(const core::TriangleMesh& mesh, const std::filesystem::path& file);
 
 // Files of cells that are whole, by their names from the folder of cells on.
 [[nodiscard]] std::set<std::string> CellFiles(const std::filesystem::path& out);
