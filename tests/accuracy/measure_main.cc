@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
+#include <vector>
 
 #include "cad_import/import_worker.h"
 #include "tests/accuracy/measurements.h"
@@ -59,6 +60,18 @@ int main(int argc, char** argv) {
   app.add_subcommand("detail", "parts drawn whole and by levels")->callback([&] { MeasureDetail(docs); });
   app.add_subcommand("light", "segmentation when the light changes")->callback([&] { MeasureLight(docs); });
   app.add_subcommand("logging", "what recording costs a frame")->callback([&] { MeasureLogging(docs); });
+  std::vector<int> sizes{25, 50, 100, 200};
+  CLI::App* scale = app.add_subcommand("scale", "what sweeps of many sessions cost");
+  scale->add_option("PROGRAM", program, "elbowroom")->required();
+  scale->add_option("--sessions", sizes, "how many, in turn")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  double session_s = 16.0;
+  scale->add_option("--seconds", session_s, "of a participant of usual speed")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  scale->callback([&] { MeasureScale(docs, program, sizes, session_s); });
   CLI::App* cost = app.add_subcommand("cost", "instructions by callgrind");
   cost->add_option("PROGRAM", view_cost, "view_cost")->required();
   cost->callback([&] { MeasureCost(docs, view_cost); });

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace elbowroom::accuracy {
 
@@ -57,6 +58,12 @@ void MeasureDetail(const std::filesystem::path& docs);
 
 // durability.md, "logging": frames with and without a session writer, and how soon they are on the disk.
 void MeasureLogging(const std::filesystem::path& docs);
+
+// scale.md, "growth", "engines", "change", "store", "site": sweeps by `program` (elbowroom) of so many
+// simulated sessions of so many seconds each, by every engine, beside whether the results are the same;
+// "hulls" and "hull_bounds": what bounds of the hulls, kept with the cells, would spare a changed part.
+void MeasureScale(const std::filesystem::path& docs, const std::filesystem::path& program,
+                  const std::vector<int>& sizes, double session_s = 16.0);
 
 // performance.md, "judging" and "judging_cost"; docs/pictures/{contact,clearance}_methods.{svg,png}.
 void MeasureJudging(const std::filesystem::path& docs);

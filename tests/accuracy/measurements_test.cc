@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "recon/hull/visual_hull.h"
 #include "tests/accuracy/callgrind.h"
 #include "tests/accuracy/peak_memory.h"
+#include "tests/accuracy/scale/hull_bounds.h"
+#include "tests/recon/scenes/random_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -132,6 +135,40 @@ TEST(PeakMemoryOf, TellsAProgramFromItsChild) {
   EXPECT_GT(peak.program_bytes, 0);
   EXPECT_LT(peak.program_bytes, kHeldBytes);
   EXPECT_THROW((void)PeakMemoryOf("/bin/false", {}), core::Error);
+}
+
+TEST(MeasureScale, WritesItsTablesAndFindsTheSameResultsEverywhere) {
+  const test_support::TemporaryFolder folder;
+  std::string document;
+  for (const char* section : {"growth", "engines", "change", "hulls", "hull_bounds", "store", "site"})
+    document += "<!-- bench:" + std::string(section) + " begin -->\n<!-- bench:" + section + " end -->\n";
+  WriteText(folder / "scale.md", document);
+  MeasureScale(folder.path(), ELBOWROOM_PROGRAM, {2, 1}, 0.5);
+  const std::string text = ReadText(folder / "scale.md");
+  EXPECT_EQ(text.find("NO"), std::string::npos) << text;
+  for (const char* row :
+       {"\n| 1 | ", "\n| 2 | ", "\n| `local`, all cells kept | ", "\n| one more revision of payload A | ",
+        "\n| boxes around it, edges up to 16 mm | ", "\n| a cover beside payload B | ",
+        "\n| a session's file | ", "\n| one more revision of a part | "})
+    EXPECT_NE(text.find(row), std::string::npos) << row << '\n' << text;
+}
+
+TEST(HullBound, HoldsEachPointOfTheHull) {
+  recon::Random random(26);
+  int inside = 0;
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto unseen = trial % 2 == 0 ? core::UnseenPolicy::kOutside : core::UnseenPolicy::kAbstain;
+    const recon::RandomScene scene = recon::MakeRingScene(&random, random.Whole(1, 5), unseen);
+    const recon::VisualHull hull = recon::MakeVisualHull(scene.rig, scene.masks);
+    const HullBound bound = BoundOf(hull, random.Uniform(20.0, 60.0));
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::Vector3d x = random.PointIn(hull.rig().workspace_mm);
+      if (!hull.Contains(x)) continue;
+      ++inside;
+      EXPECT_EQ(bound.DistanceMm({x, x}), 0.0);
+    }
+  }
+  EXPECT_GT(inside, 100);
 }
 
 }  // namespace
