@@ -8,6 +8,7 @@
 #include "tests/accuracy/peak_memory.h"
 #include "tests/accuracy/scale/hull_bounds.h"
 #include "tests/recon/scenes/random_scene.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -143,7 +144,7 @@ TEST(MeasureScale, WritesItsTablesAndFindsTheSameResultsEverywhere) {
   for (const char* section : {"growth", "engines", "change", "hulls", "hull_bounds", "store", "site"})
     document += "<!-- bench:" + std::string(section) + " begin -->\n<!-- bench:" + section + " end -->\n";
   WriteText(folder / "scale.md", document);
-  MeasureScale(folder.path(), ELBOWROOM_PROGRAM, {2, 1}, 0.5);
+  MeasureScale(folder.path(), test_support::ProgramFile(), {2, 1}, 0.5);
   const std::string text = ReadText(folder / "scale.md");
   EXPECT_EQ(text.find("NO"), std::string::npos) << text;
   for (const char* row :

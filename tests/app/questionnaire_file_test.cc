@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/procedure/scores.h"
+#include "tests/support/places.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
 
@@ -146,7 +147,7 @@ TEST(QuestionnaireFile, WhatIsWrongIsOneLineWithItsPlace) {
 TEST(QuestionnaireFile, EverySampleCanBeAskedAndScored) {
   int samples = 0;
   for (const auto& entry :
-       fs::directory_iterator(fs::path(ELBOWROOM_SOURCE_DIR) / "docs/examples/questionnaires")) {
+       fs::directory_iterator(test_support::SourceFolder() / "docs/examples/questionnaires")) {
     const core::Questionnaire sample = ReadQuestionnaireFile(entry.path(), AskedWhen::kAfter);
     core::ItemAnswers answers;
     for (const core::QuestionnaireItem& item : sample.items) {

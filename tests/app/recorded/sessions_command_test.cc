@@ -98,7 +98,7 @@ class AnswerCommand : public testing::Test {
   }
   [[nodiscard]] ProgramRun Answer(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {"sessions", "answer"});
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
   [[nodiscard]] std::string Table(const std::string& text) const {
     test_support::WriteText(folder_ / "answers.csv", text);
@@ -121,13 +121,14 @@ TEST_F(AnswerCommand, GivesSomeByName) {
   const sessions::SessionReader reader(session);
   EXPECT_EQ(core::AnswersOf(reader.header().trial, reader.events())[0], 4);
   const ProgramRun show =
-      test_support::RunProgram(ELBOWROOM_PROGRAM, {"sessions", "show", session, "--json"});
+      test_support::RunProgram(test_support::ProgramFile(), {"sessions", "show", session, "--json"});
   const auto shown = nlohmann::json::parse(show.out)["sessions"][0];
   EXPECT_EQ(shown["block"], "timed; DROP");
   EXPECT_EQ(shown["questionnaires"][1]["items"][1]["value"], 2.0) << "reversed";
   EXPECT_EQ(shown["questionnaires"][1]["scores"][0]["value"], 2.0);
   EXPECT_TRUE(shown["questionnaires"][1]["scores"][3]["value"].is_null()) << "'age' isn't answered";
-  EXPECT_EQ(test_support::RunProgram(ELBOWROOM_PROGRAM, {"sessions", "check", session}).exit_status, 0);
+  EXPECT_EQ(test_support::RunProgram(test_support::ProgramFile(), {"sessions", "check", session}).exit_status,
+            0);
 }
 
 TEST_F(AnswerCommand, ATableIsOfManySessions) {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -76,7 +77,7 @@ class CohortTables : public testing::Test {
   json Run(const std::vector<std::string>& arguments) {
     std::vector<std::string> all = arguments;
     all.emplace_back("--json");
-    const auto run = test_support::RunProgram(ELBOWROOM_PROGRAM, all);
+    const auto run = test_support::RunProgram(test_support::ProgramFile(), all);
     EXPECT_EQ(run.exit_status, 0) << run.err;
     return json::parse(run.out);
   }

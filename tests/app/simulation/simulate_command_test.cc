@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/places.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -19,7 +20,7 @@ class SimulateCommand : public testing::Test {
   ProgramRun Simulate(const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"simulate", "--out", (folder_ / "out").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return test_support::RunProgram(ELBOWROOM_PROGRAM, arguments);
+    return test_support::RunProgram(test_support::ProgramFile(), arguments);
   }
   test_support::TemporaryFolder folder_;
 };
@@ -37,7 +38,7 @@ TEST_F(SimulateCommand, SaysWhatIsWrongInOneLineAndMakesNothing) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     EXPECT_TRUE(run.out.empty());
   }
-  EXPECT_EQ(test_support::RunProgram(ELBOWROOM_PROGRAM, {"simulate"}).exit_status, 2) << "no --out";
+  EXPECT_EQ(test_support::RunProgram(test_support::ProgramFile(), {"simulate"}).exit_status, 2) << "no --out";
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 

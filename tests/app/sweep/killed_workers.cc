@@ -1,4 +1,5 @@
 #include "tests/app/sweep/killed_workers.h"
+#include "tests/support/places.h"
 
 #include <signal.h>  // NOLINT: kill
 
@@ -36,8 +37,8 @@ std::vector<Worker> WorkersOf(const fs::path& out) {
     const std::string name = entry.path().filename().string();
     if (!std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0; })) continue;
     std::string command = CommandOf(entry.path());
-    if (command.starts_with(ELBOWROOM_PROGRAM) && command.find("--cells-only") != std::string::npos &&
-        command.find(out.string()) != std::string::npos)
+    if (command.starts_with(test_support::ProgramFile().string()) &&
+        command.find("--cells-only") != std::string::npos && command.find(out.string()) != std::string::npos)
       workers.push_back({std::stoi(name), std::move(command)});
   }
   return workers;

@@ -18,6 +18,7 @@
 #include "tests/app/sweep/killed_workers.h"
 #include "tests/app/sweep/one_node_slurm.h"
 #include "tests/app/sweep/swept_sessions.h"
+#include "tests/support/places.h"
 #include "tests/support/soak.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_file.h"
@@ -70,7 +71,7 @@ class SweepOfMany : public testing::Test {
     test_support::RunOptions options;
     options.timeout_s = kTimeoutS;
     const auto run = test_support::RunProgram(
-        ELBOWROOM_PROGRAM,
+        test_support::ProgramFile(),
         {"simulate", "--participants", std::to_string(CountOfSessions()), "--seed", std::to_string(kSeed),
          "--seconds", "3", "--rate", "5", "--out", (*folder_ / "cohort").string(), "--json"},
         options);
