@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #define CSV_IO_NO_THREAD  // the table is in memory
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wstringop-truncation"  // of file names in its messages, which aren't used
 #include <libfccp/csv.h>
+#pragma GCC diagnostic pop
 
 #include "core/error.h"
 #include "core/plain_text.h"
