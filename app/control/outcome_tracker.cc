@@ -5,8 +5,8 @@
 
 #include "app/control/recorded_frame.h"
 #include "app/control/trial_rules.h"
+#include "core/procedure/tools_in_use.h"
 #include "core/progress.h"
-#include "core/tools_in_use.h"
 
 namespace elbowroom::control {
 

@@ -21,8 +21,8 @@
 #include "app/control/trial_rules.h"
 #include "app/control/versions.h"
 #include "core/error.h"
+#include "core/procedure/tools_in_use.h"
 #include "core/system/utc_time.h"
-#include "core/tools_in_use.h"
 #include "sessions/session_writer.h"
 
 namespace elbowroom::control {

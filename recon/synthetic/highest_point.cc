@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <variant>
 
@@ -83,25 +82,8 @@ Height HighestOfCapsule(const Capsule& capsule, const RigidTransform& world_from
   return std::max({height(low), height(high), height(greatest(low, high, height))});
 }
 
-Height HighestOfTube(const Tube& tube, const RigidTransform& world_from_solid, const AlignedBox2d& above) {
-  constexpr int kLines = 720;
-  Height highest;
-  for (int i = 0; i < kLines; ++i) {
-    const double angle_rad = 2.0 * std::numbers::pi * i / kLines;
-    const Vector3d side(tube.outer_radius_mm * std::cos(angle_rad),
-                        tube.outer_radius_mm * std::sin(angle_rad), 0.0);
-    const Vector3d up(0.0, 0.0, tube.length_mm);
-    // Lines of the side, and of the ends from their middle out.
-    TakeHigher(HighestOfSegment(world_from_solid * side, world_from_solid * (side + up), above), &highest);
-    for (const Vector3d& end : {Vector3d::Zero().eval(), up})
-      TakeHigher(HighestOfSegment(world_from_solid * end, world_from_solid * (end + side), above), &highest);
-  }
-  return highest;
-}
-
-// A box above a rectangle has its highest point on an edge of the box, or where an edge of the prism above
-// the rectangle enters the box.
-Height HighestOfBox(const Solid& solid, const Box& box, const AlignedBox2d& above) {
+// Where vertical lines through the rectangle's corners enter the solid.
+Height HighestAboveCorners(const Solid& solid, const AlignedBox2d& above) {
   const BoundingSphere sphere = BoundingSphereOf(solid);
   const double over_z = sphere.center_in_world.z() + 2.0 * sphere.radius_mm;
   Height highest;
@@ -111,6 +93,62 @@ Height HighestOfBox(const Solid& solid, const Box& box, const AlignedBox2d& abov
     const auto hit = FirstHit(solid, Ray{{at.x(), at.y(), over_z}, -Vector3d::UnitZ()});
     if (hit) TakeHigher(over_z - hit->distance_mm, &highest);
   }
+  return highest;
+}
+
+// Of the points in which a circle meets the sides of the prism above the rectangle. `across`: its radii along
+// two axes.
+Height HighestOfCircleOnBorder(const Vector3d& center, const std::array<Vector3d, 2>& across,
+                               const AlignedBox2d& above) {
+  Height highest;
+  for (const int axis : {0, 1}) {
+    const double most = std::hypot(across[0][axis], across[1][axis]);
+    const double top_rad = std::atan2(across[1][axis], across[0][axis]);
+    for (const double border : {above.min()[axis], above.max()[axis]}) {
+      const double off = border - center[axis];
+      if (most == 0.0 || std::abs(off) > most) continue;
+      for (const double turn_rad : {std::acos(off / most), -std::acos(off / most)}) {
+        Vector3d at =
+            center + std::cos(top_rad + turn_rad) * across[0] + std::sin(top_rad + turn_rad) * across[1];
+        at[axis] = border;
+        if (above.contains(Eigen::Vector2d(at.head<2>()))) TakeHigher(at.z(), &highest);
+      }
+    }
+  }
+  return highest;
+}
+
+// A full tube is convex, and so is what of it is above the rectangle. That is highest where the tube itself
+// is, which is an end of its side's upper line; or on a side of the prism above the rectangle: where a rim
+// meets it, or where a line of the tube's side does whose tangent plane holds that prism's level direction;
+// or on an edge of the prism.
+Height HighestOfTube(Solid solid, Tube tube, const AlignedBox2d& above) {
+  tube.inner_radius_mm = 0.0;
+  solid.shape = tube;
+  const RigidTransform& world_from_solid = solid.world_from_solid;
+  const Vector3d start = world_from_solid.translation_mm,
+                 axis = world_from_solid.rotation * Vector3d::UnitZ(), end = start + tube.length_mm * axis;
+  const Vector3d up = Vector3d::UnitZ();
+  Height highest = HighestAboveCorners(solid, above);
+  for (const Vector3d& normal : {Vector3d(up - axis.z() * axis), Vector3d(axis.cross(Vector3d::UnitX())),
+                                 Vector3d(axis.cross(Vector3d::UnitY()))}) {
+    if (normal.norm() == 0.0) continue;
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector3d side = sign * tube.outer_radius_mm * normal.normalized();
+      TakeHigher(HighestOfSegment(start + side, end + side, above), &highest);
+    }
+  }
+  const std::array<Vector3d, 2> across{world_from_solid.rotation * Vector3d(tube.outer_radius_mm, 0.0, 0.0),
+                                       world_from_solid.rotation * Vector3d(0.0, tube.outer_radius_mm, 0.0)};
+  for (const Vector3d& middle : {start, end})
+    TakeHigher(HighestOfCircleOnBorder(middle, across, above), &highest);
+  return highest;
+}
+
+// A box above a rectangle has its highest point on an edge of the box, or where an edge of the prism above
+// the rectangle enters the box.
+Height HighestOfBox(const Solid& solid, const Box& box, const AlignedBox2d& above) {
+  Height highest = HighestAboveCorners(solid, above);
   const auto corner = [&](unsigned i) -> Vector3d {
     const Vector3d sign((i & 1U) != 0U ? 0.5 : -0.5, (i & 2U) != 0U ? 0.5 : -0.5,
                         (i & 4U) != 0U ? 0.5 : -0.5);
@@ -130,8 +168,7 @@ std::optional<double> HighestZMm(const Solid& solid, const AlignedBox2d& above_m
     return HighestOfBall(world_from_solid.translation_mm, sphere->radius_mm, above_mm);
   if (const auto* capsule = std::get_if<Capsule>(&solid.shape))
     return HighestOfCapsule(*capsule, world_from_solid, above_mm);
-  if (const auto* tube = std::get_if<Tube>(&solid.shape))
-    return HighestOfTube(*tube, world_from_solid, above_mm);
+  if (const auto* tube = std::get_if<Tube>(&solid.shape)) return HighestOfTube(solid, *tube, above_mm);
   return HighestOfBox(solid, std::get<Box>(solid.shape), above_mm);
 }
 

@@ -10,8 +10,7 @@
 namespace elbowroom::recon {
 
 // z of the highest point, in the world, of what of the solid stands above the rectangle (x, y); nothing: none
-// does. Exact for spheres, capsules and boxes. A tube counts as full, and is short by at most 2e-5 of its
-// radius: 720 lines along its side are looked at (highest_point_test).
+// does. Exact but for rounding (highest_point_test). A tube counts as full.
 [[nodiscard]] std::optional<double> HighestZMm(const Solid& solid, const Eigen::AlignedBox2d& above_mm);
 
 // Of all of them.

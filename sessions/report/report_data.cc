@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "core/error.h"
-#include "core/tools_in_use.h"
+#include "core/procedure/tools_in_use.h"
 #include "sessions/report/frame_touches.h"
 
 namespace elbowroom::sessions {

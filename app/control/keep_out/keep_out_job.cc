@@ -11,8 +11,8 @@
 #include <variant>
 
 #include "core/error.h"
+#include "core/procedure/tools_in_use.h"
 #include "core/spelling.h"
-#include "core/tools_in_use.h"
 #include "recon/contours/undistorted_plane.h"
 #include "recon/hull/visual_hull.h"
 #include "sessions/session_reader.h"

@@ -13,7 +13,7 @@
 #include "app/control/silhouette_pipeline.h"
 #include "app/control/stopwatch.h"
 #include "app/control/trial_rules.h"
-#include "core/tools_in_use.h"
+#include "core/procedure/tools_in_use.h"
 #include "review/contact_tracker.h"
 
 namespace elbowroom::control {

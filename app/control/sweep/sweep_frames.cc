@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/tools_in_use.h"
+#include "core/procedure/tools_in_use.h"
 
 namespace elbowroom::control {
 

@@ -1,4 +1,4 @@
-#include "core/tools_in_use.h"
+#include "core/procedure/tools_in_use.h"
 
 #include <gtest/gtest.h>
 
