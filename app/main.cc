@@ -5,6 +5,7 @@
 #include "app/cli/command_line.h"
 #include "app/cli/standard_streams.h"
 #include "cad_import/import_worker.h"
+#include "core/system/kept_memory.h"
 #ifdef ELBOWROOM_WINDOW_PROGRAM
 #include <fmt/format.h>
 #include <unistd.h>
@@ -43,6 +44,7 @@ cli::OpenConsole WayToTheWindow([[maybe_unused]] char** argv) {
 int main(int argc, char** argv) {
   elbowroom::cli::GuardStandardStreams();          // before a file can be opened
   elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
+  elbowroom::core::KeepFreedMemory();
   spdlog::set_default_logger(spdlog::stderr_color_mt("elbowroom"));  // stdout is for results
   return elbowroom::cli::RunCommandLine(argc, argv, elbowroom::WayToTheWindow(argv));
 }

@@ -8,10 +8,12 @@
 #include "app/cli/standard_streams.h"
 #include "app/console/console_main.h"
 #include "cad_import/import_worker.h"
+#include "core/system/kept_memory.h"
 
 int main(int argc, char** argv) {
   elbowroom::cli::GuardStandardStreams();          // before a file can be opened
   elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
+  elbowroom::core::KeepFreedMemory();
   spdlog::set_default_logger(spdlog::stderr_color_mt("elbowroom"));  // stdout is for results
   return elbowroom::cli::RunCommandLine(argc, argv, [](const elbowroom::cli::ConsoleRequest& request) {
     const elbowroom::cli::InterruptWatch interrupt;  // before Qt's threads

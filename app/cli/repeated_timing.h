@@ -6,16 +6,14 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/system/kept_memory.h"
+
 namespace elbowroom::cli {
 
 struct RunTimes {
   double first_ms = 0.0;   // of the first call: memory is new, and nothing is in a cache
   double median_ms = 0.0;  // of the calls after it, at least five: memory is kept, as in a trial
 };
-
-// From now on the C library keeps freed memory. Otherwise it hands large blocks back after each call, and the
-// next call pays for new pages.
-void KeepFreedMemory();
 
 // Times `compute`, which has its inputs in memory.
 template <typename Compute>
@@ -30,7 +28,7 @@ template <typename Compute>
   };
   RunTimes times;
   times.first_ms = timed_ms();
-  KeepFreedMemory();
+  core::KeepFreedMemory();
   compute();
   std::vector<double> repeated_ms;
   double sum_ms = 0.0;

@@ -26,7 +26,7 @@ core::Questionnaire Read(const std::string& text) {
   return ReadQuestionnaireFile(folder / "Q.toml", AskedWhen::kAfter);
 }
 
-std::string FaultOf(const std::string& text) {
+std::string FaultOfFile(const std::string& text) {
   try {
     (void)Read(text);
   } catch (const core::Error& error) {
@@ -137,7 +137,7 @@ TEST(QuestionnaireFile, WhatIsWrongIsOneLineWithItsPlace) {
         std::pair{with("name = \"total\"", "name = \"high\""), "name of an earlier score"},
         std::pair{std::string("name = \"empty\"\n"), "key 'item' is missing"},
         std::pair{std::string("name = \n"), "Q.toml:1: not TOML"}}) {
-    const std::string fault = FaultOf(text);
+    const std::string fault = FaultOfFile(text);
     EXPECT_NE(fault.find(said), std::string::npos) << said << " in " << fault;
     EXPECT_NE(fault.find("Q.toml:"), std::string::npos) << fault;
     EXPECT_EQ(std::ranges::count(fault, '\n'), 0) << fault;

@@ -302,7 +302,7 @@ TEST(DamagedSession, WhatItHoldsCanBeSalvaged) {
   ExpectRefused(path, "the integrity check says");
   const std::string salvage =
       "(sqlite3 s.db .dump | sed 's/^ROLLBACK;.*/COMMIT;/'; "
-      "echo 'PRAGMA application_id = 1164730999; PRAGMA user_version = 10;') | sqlite3 saved.db";
+      "echo 'PRAGMA application_id = 1164730999; PRAGMA user_version = 11;') | sqlite3 saved.db";
   ASSERT_EQ(
       test_support::RunProgram("/bin/bash", {"-c", salvage}, {.working_folder = folder.path()}).exit_status,
       0);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "sessions/schema/schema.h"
 #include "sessions/session_reader.h"
 #include "sessions/session_writer.h"
 #include "tests/sessions/expect_error.h"
@@ -49,7 +50,7 @@ TEST(ReviewEditor, AddsToWhatWasSaidBefore) {
 }
 
 TEST(ReviewEditor, BringsOlderFilesToTheNewestSchema) {
-  for (int schema = 1; schema <= 10; ++schema) {
+  for (int schema = 1; schema <= sessions::kSchemaVersion; ++schema) {
     const test_support::TemporaryFolder folder;
     const auto path = folder / "s.db";
     std::filesystem::copy_file(test_support::SourceFolder() / "tests/sessions/stored" /
@@ -62,7 +63,7 @@ TEST(ReviewEditor, BringsOlderFilesToTheNewestSchema) {
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t i = 0; i < after.size(); ++i) EXPECT_EQ(after[i].id, before[i].id) << schema;
     EXPECT_EQ(FindingWith(path, before[0].id).status(), ReviewStatus::kApproved) << schema;
-    EXPECT_EQ(SessionReader(path).file_schema(), 10);
+    EXPECT_EQ(SessionReader(path).file_schema(), sessions::kSchemaVersion);
   }
 }
 

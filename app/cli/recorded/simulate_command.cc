@@ -94,7 +94,9 @@ void AddSimulateCommand(CLI::App& app, Choice* choice) {
       ->required();
   command->add_option("--participants", options->participants, "how many (default: payload 4, blocks 12)")
       ->check(CLI::Range(1, 10'000));
-  command->add_option("--seed", options->seed, "the same seed gives the same motion again")->default_str("1");
+  command->add_option("--seed", options->seed, "the same seed gives the same motion again")
+      ->check(CLI::NonNegativeNumber)
+      ->default_str("1");
   command
       ->add_option("--seconds", options->seconds,
                    "how long a participant of usual speed takes, for the payload task (default: 16) or for a "

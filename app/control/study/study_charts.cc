@@ -27,11 +27,25 @@ constexpr double kLaneHeightPx = 24.0;
 constexpr double kMarkShare = 0.004;  // a mark's width, of the axis
 
 // A round length, 1, 2 or 5 times a power of ten, of which some ten fit into `range`.
-double RoundStep(double range) {
-  const double power = std::pow(10.0, std::floor(std::log10(range)) - 1.0);
-  const double times = range / (10.0 * power);  // 1 to 10
-  return power * (times < 2.0 ? 1.0 : times < 5.0 ? 2.0 : 5.0);
-}
+class RoundStep {
+ public:
+  explicit RoundStep(double range) {
+    power_ = static_cast<int>(std::floor(std::log10(range))) - 1;
+    const double times = range / (10.0 * std::pow(10.0, power_));  // 1 to 10
+    times_ = times < 2.0 ? 1.0 : times < 5.0 ? 2.0 : 5.0;
+  }
+
+  [[nodiscard]] double size() const { return Times(1.0); }
+  // So many steps, as the number nearest to that decimal fraction: an axis shows it.
+  [[nodiscard]] double Times(double steps) const {
+    const double power = std::pow(10.0, std::abs(power_));  // exact
+    return power_ < 0 ? steps * times_ / power : steps * times_ * power;
+  }
+
+ private:
+  double times_ = 1.0;
+  int power_ = 0;
+};
 
 // Where an axis begins and ends: at round values, so that all values are on it.
 class Extent {
@@ -49,8 +63,8 @@ class Extent {
     // Values that are one but for rounding have no range to be read off.
     const double margin = std::max(1.0, kMarginShare * size);
     if (high - low <= kSameShare * size) return {std::floor(low - margin), std::ceil(high + margin)};
-    const double step = RoundStep(high - low);
-    return {step * (std::ceil(low / step) - 1.0), step * (std::floor(high / step) + 1.0)};
+    const RoundStep step(high - low);
+    return {step.Times(std::ceil(low / step.size()) - 1.0), step.Times(std::floor(high / step.size()) + 1.0)};
   }
 
  private:

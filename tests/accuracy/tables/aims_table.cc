@@ -67,7 +67,7 @@ class Measured {
   Table micro_;
 };
 
-const char* Verdict(bool is_met) { return is_met ? "yes" : "no"; }
+const char* MetText(bool is_met) { return is_met ? "yes" : "no"; }
 
 // At most so many ms on one thread and on two; 0: nothing is asked of it.
 std::vector<std::string> TimeRow(const std::string& what, double one_aim_ms, double two_aim_ms, double one_ms,
@@ -76,7 +76,7 @@ std::vector<std::string> TimeRow(const std::string& what, double one_aim_ms, dou
   const auto aim = [&](double value_ms) { return value_ms > 0.0 ? "<= " + told(value_ms) + " ms" : "-"; };
   const bool is_met =
       (one_aim_ms == 0.0 || one_ms <= one_aim_ms) && (two_aim_ms == 0.0 || two_ms <= two_aim_ms);
-  return {what, aim(one_aim_ms), told(one_ms), aim(two_aim_ms), told(two_ms), Verdict(is_met)};
+  return {what, aim(one_aim_ms), told(one_ms), aim(two_aim_ms), told(two_ms), MetText(is_met)};
 }
 
 // The exact view against another method: at least so many times faster on one thread and on two.
@@ -91,7 +91,7 @@ std::vector<std::string> RatioRow(const Measured& measured, const std::string& m
           fmt::format("{:.1f} x", ratio(1)),
           aim,
           fmt::format("{:.1f} x", ratio(2)),
-          Verdict(std::min(ratio(1), ratio(2)) >= at_least)};
+          MetText(std::min(ratio(1), ratio(2)) >= at_least)};
 }
 
 }  // namespace
@@ -130,7 +130,7 @@ void WriteAimsTable(const std::filesystem::path& docs) {
         TimeRow(fmt::format("segmentation of 4 pictures: {}", what), 0.6, 0.0, time_ms, 0.0));
     table.rows.push_back({fmt::format("segmentation against MOG2: {}", what), ">= 15 x",
                           fmt::format("{:.1f} x", mog2_ms / time_ms), "-", "-",
-                          Verdict(mog2_ms >= 15.0 * time_ms)});
+                          MetText(mog2_ms >= 15.0 * time_ms)});
   }
   reporting::WriteSection(file, "aims", reporting::ToMarkdown(table));
 }

@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 
 // The hull of four cameras holds the real thing but for what segmentation loses at its edge, and more.
-constexpr double kLostMm = 2.0, kHullExcessMm = 12.0;
+constexpr double kLostMm = 1.0, kHullExcessMm = 2.0;
 
 using ByParticipant = std::map<std::string, double>;
 

@@ -73,9 +73,10 @@ TEST_F(StudyCommand, ToldInWordsIsATable) {
 }
 
 TEST_F(StudyCommand, ABlockIsStudiedAlone) {
-  tests::RecordReach(folder_ / "s.db", {.participant = "P1", .estimate_before_mm = 100.0, .block = "timed"});
+  tests::RecordReach(folder_ / "s.db",
+                     {.participant = "P1", .condition = "", .estimate_before_mm = 100.0, .block = "timed"});
   tests::RecordReach(folder_ / "t.db",
-                     {.participant = "P1", .estimate_before_mm = 90.0, .block = "practice"});
+                     {.participant = "P1", .condition = "", .estimate_before_mm = 90.0, .block = "practice"});
   const std::string other = (folder_ / "t.db").string();
   const ProgramRun run = Study({other, "--json", "--block", "timed", "--spacing", "lid_gap=60:120:30"});
   ASSERT_EQ(run.exit_status, 0) << run.err;

@@ -153,6 +153,19 @@ TEST_F(StudyWithoutEstimates, TheSurestDifferenceIsDrawnFirst) {
   EXPECT_EQ(charts.front().x_name, "step 'reach in', s");
 }
 
+TEST(StudyCharts, AnAxisBeginsAndEndsAtRoundNumbers) {
+  const auto axis = [](double low, double high) {
+    Study study;
+    study.rows.push_back({.participant = "P1", .estimate_before_mm = low, .needed_mm = high});
+    const auto chart = control::EstimateChart(study);
+    return fmt::format("{} {}", chart.x_from, chart.x_to);
+  };
+  EXPECT_EQ(axis(1.35, 3.5), "1.2 3.6") << "not 1.2000000000000002";
+  EXPECT_EQ(axis(-0.00034, 0.00125), "-0.0004 0.0013");
+  EXPECT_EQ(axis(150.0, 295.0), "140 300");
+  EXPECT_EQ(axis(12'345.0, 98'765.0), "10000 100000");
+}
+
 TEST_F(StudyReportTest, OneSessionWithoutACodeIsAReport) {
   if (!tests::HasBrowser()) GTEST_SKIP() << "NOT TESTED: no /usr/bin/chromium";
   Record("alone.db", {"", "", 0, 0.0, 0.0, 80.0});
