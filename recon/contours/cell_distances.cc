@@ -10,6 +10,8 @@ namespace elbowroom::recon {
 namespace {
 
 constexpr int kNear = CellDistances::kNearCells;
+constexpr std::size_t kWrittenBehind = 64;
+static_assert(kWrittenBehind >= ContourCellsView::kBytesBehind);
 
 // Rows of numbers with a margin on both sides.
 template <typename Number>
@@ -41,10 +43,30 @@ void ForEach(std::span<const std::uint32_t> holders, std::size_t width, const Vi
 
 }  // namespace
 
+// Rows are written a little beyond their ends.
+CellDistances::CellDistances(int width, int height)
+    : width_(static_cast<std::size_t>(width)),
+      height_(static_cast<std::size_t>(height)),
+      block_width_((width_ + kBlock - 1) / kBlock),
+      block_height_((height_ + kBlock - 1) / kBlock),
+      near_squares_(std::make_unique_for_overwrite<std::uint8_t[]>(width_ * height_ + kWrittenBehind)),
+      blocks_(block_width_ * block_height_ + kRowMargin) {}
+
 CellDistances::CellDistances(int width, int height, std::span<const std::uint32_t> holders)
-    : width_(static_cast<std::size_t>(width)), height_(static_cast<std::size_t>(height)) {
+    : CellDistances(width, height) {
   FillNear(holders);
   FillBlocks(holders);
+}
+
+CellDistances::CellDistances(int width, int height, RawReader* reader) : CellDistances(width, height) {
+  reader->Read(std::span(near_squares_.get(), width_ * height_));
+  std::fill_n(near_squares_.get() + width_ * height_, kWrittenBehind, std::uint8_t{0});
+  reader->Read(std::span(blocks_));
+}
+
+void CellDistances::Write(RawWriter* writer) const {
+  writer->Add(std::span<const std::uint8_t>(near_squares_.get(), width_ * height_));
+  writer->Add(std::span<const float>(blocks_));
 }
 
 void CellDistances::FillNear(std::span<const std::uint32_t> holders) {
@@ -59,9 +81,6 @@ void CellDistances::FillNear(std::span<const std::uint32_t> holders) {
   };
   for (std::size_t y = 1; y < height_; ++y) take_nearer(down.Whole(y - 1), down.Whole(y));
   for (std::size_t y = height_ - 1; y-- > 0;) take_nearer(down.Whole(y + 1), down.Whole(y));
-  constexpr std::size_t kWrittenBehind = 64;
-  static_assert(kWrittenBehind >= ContourCellsView::kBytesBehind);
-  near_squares_ = std::make_unique_for_overwrite<std::uint8_t[]>(width_ * height_ + kWrittenBehind);
   for (std::size_t y = 0; y < height_; ++y) {
     for (std::uint8_t& cells : down.Whole(y)) cells = static_cast<std::uint8_t>(cells * cells);
     NearSquaresInRow(down.Row(y), width_, kNear, near_squares_.get() + y * width_);
@@ -69,7 +88,6 @@ void CellDistances::FillNear(std::span<const std::uint32_t> holders) {
 }
 
 void CellDistances::FillBlocks(std::span<const std::uint32_t> holders) {
-  block_width_ = (width_ + kBlock - 1) / kBlock, block_height_ = (height_ + kBlock - 1) / kBlock;
   // First down the columns of blocks, then along the rows. Blocks are few, so their distances need no cap.
   // Two cells whose blocks are n > 0 blocks apart along an axis are at least kBlock (n - 1) + 1 cells apart
   // along it.
@@ -81,7 +99,6 @@ void CellDistances::FillBlocks(std::span<const std::uint32_t> holders) {
     down[i] = std::min(down[i], down[i - block_width_] + 1);
   for (std::size_t i = down.size() - block_width_; i-- > 0;)
     down[i] = std::min(down[i], down[i + block_width_] + 1);
-  blocks_.resize(down.size() + kRowMargin);
   Rows<float> squares(block_width_, 1, block_width_ + kRowMargin, std::numeric_limits<float>::infinity());
   for (std::size_t y = 0; y < block_height_; ++y) {
     for (std::size_t x = 0; x < block_width_; ++x) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "recon/contours/contour_cells_view.h"
+#include "recon/contours/raw_bytes.h"
 
 namespace elbowroom::recon {
 
@@ -22,6 +23,9 @@ class CellDistances {
   CellDistances() = default;
   // Cell (x, y) is item y * width + x; `holders`: those that hold something, ascending.
   CellDistances(int width, int height, std::span<const std::uint32_t> holders);
+  // Those that were written, of as many cells.
+  CellDistances(int width, int height, RawReader* reader);
+  void Write(RawWriter* writer) const;
 
   [[nodiscard]] double LowerBound(int x, int y) const {
     const std::uint8_t square =
@@ -46,6 +50,7 @@ class CellDistances {
   static constexpr int kBlock = 4;
   static constexpr double kShort = 2.0 * (kBlock - 1) * 1.4142135623730952;  // two blocks' own sizes
   static constexpr double kUpwards = 1.0 + 2e-6;                             // for the roots' rounding
+  CellDistances(int width, int height);                                      // empty arrays
   void FillNear(std::span<const std::uint32_t> holders);
   void FillBlocks(std::span<const std::uint32_t> holders);
 

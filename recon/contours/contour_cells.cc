@@ -45,8 +45,7 @@ double CrossingX(const Vector2d& a, const Vector2d& b, double y) {
 
 }  // namespace
 
-ContourCells::ContourCells(const Contour& contour, bool exterior_is_object,
-                           const Eigen::AlignedBox2d& bounds_px) {
+ContourCells::ContourCells(const Eigen::AlignedBox2d& bounds_px) {
   const Vector2d extent_px = bounds_px.sizes();
   cell_px_ = std::max(1.0, std::sqrt(extent_px.prod() / kMostCells));
   cell_px_ = std::max(cell_px_, extent_px.maxCoeff() / kMostCells);
@@ -54,9 +53,57 @@ ContourCells::ContourCells(const Contour& contour, bool exterior_is_object,
   size_ = (extent_px / cell_px_).array().ceil().cast<int>() + 1 + 2 * kMarginCells;
   origin_px_ = bounds_px.center() - 0.5 * cell_px_ * size_.cast<double>();
   count_ = Index(0, size_.y());
+}
+
+ContourCells::ContourCells(const Contour& contour, bool exterior_is_object,
+                           const Eigen::AlignedBox2d& bounds_px)
+    : ContourCells(bounds_px) {
   const std::vector<std::uint32_t> mixed_cells = ListEdges(contour);
   LabelCentres(contour, exterior_is_object, mixed_cells);
   distances_ = CellDistances(size_.x(), size_.y(), mixed_cells);
+}
+
+// Of first_, only where it changes.
+void ContourCells::Write(RawWriter* writer) const {
+  std::vector<std::uint32_t> cells, edges;  // that have some, and how many
+  for (std::uint32_t cell = 0; cell < count_; ++cell) {
+    if (first_[cell + 1] == first_[cell]) continue;
+    cells.push_back(cell);
+    edges.push_back(first_[cell + 1] - first_[cell]);
+  }
+  writer->AddOne(cells.size());
+  writer->Add(std::span<const std::uint32_t>(cells));
+  writer->Add(std::span<const std::uint32_t>(edges));
+  writer->AddOne(listed_.size());
+  writer->Add(std::span<const std::uint32_t>(listed_));
+  writer->Add(std::span<const std::uint8_t>(labels_.get(), count_));
+  distances_.Write(writer);
+}
+
+ContourCells::ContourCells(const Contour& contour, const Eigen::AlignedBox2d& bounds_px, RawReader* reader)
+    : ContourCells(bounds_px) {
+  std::vector<std::uint32_t> cells(reader->ReadCount(2 * sizeof(std::uint32_t))), edges(cells.size());
+  reader->Read(std::span(cells));
+  reader->Read(std::span(edges));
+  listed_.resize(reader->ReadCount(sizeof(std::uint32_t)));
+  reader->Read(std::span(listed_));
+  RawReader::Check(listed_.empty() || std::ranges::max(listed_) < contour.edges.size());
+  first_ = std::make_unique_for_overwrite<std::uint32_t[]>(count_ + 1);
+  std::uint32_t begin = 0;
+  std::size_t filled = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    RawReader::Check(cells[i] >= filled && cells[i] < count_ && edges[i] <= listed_.size() - begin);
+    std::fill(first_.get() + filled, first_.get() + cells[i] + 1, begin);
+    filled = cells[i] + std::size_t{1};
+    begin += edges[i];
+  }
+  std::fill(first_.get() + filled, first_.get() + count_ + 1, begin);
+  RawReader::Check(begin == listed_.size());
+  TakeSegments(contour);
+  labels_ = std::make_unique_for_overwrite<std::uint8_t[]>(count_ + ContourCellsView::kBytesBehind);
+  reader->Read(std::span(labels_.get(), count_));
+  std::fill_n(labels_.get() + count_, ContourCellsView::kBytesBehind, std::uint8_t{0});
+  distances_ = CellDistances(size_.x(), size_.y(), reader);
 }
 
 ContourCellsView ContourCells::CellsView() const {
@@ -128,20 +175,23 @@ std::vector<std::uint32_t> ContourCells::ListEdges(const Contour& contour) {
   });
   std::fill(first_.get() + filled, first_.get() + count_ + 1, begin);
   listed_.resize(touches.size());
-  segments_.resize(touches.size() + ContourCellsView::kEdgesBehind);
   // Meanwhile first_ says where a cell's next edge goes; in the end, that is where the cell's edges end.
-  for (const auto& [cell, e] : touches) {
-    const Vector2d &from = contour.vertices[contour.edges[e].from],
-                   &to = contour.vertices[contour.edges[e].to];
-    const std::uint32_t place = first_[cell]++;
-    segments_[place] = {from.x(), from.y(), to.x(), to.y()};
-    listed_[place] = e;
-  }
+  for (const auto& [cell, e] : touches) listed_[first_[cell]++] = e;
+  TakeSegments(contour);
   // Restores the beginnings, from the last cell to the first: first_ of the cell before is where its edges
   // end, which is where this one's begin.
   for (std::size_t i = mixed_cells.size(); i-- > 0;)
     first_[mixed_cells[i]] = mixed_cells[i] == 0 ? 0 : first_[mixed_cells[i] - 1];
   return mixed_cells;
+}
+
+void ContourCells::TakeSegments(const Contour& contour) {
+  segments_.resize(listed_.size() + ContourCellsView::kEdgesBehind);
+  for (std::size_t i = 0; i < listed_.size(); ++i) {
+    const auto& [from, to] = contour.edges[listed_[i]];
+    const Vector2d &a = contour.vertices[from], &b = contour.vertices[to];
+    segments_[i] = {a.x(), a.y(), b.x(), b.y()};
+  }
 }
 
 // Goes along each row of centres, from the left. An edge flips the label of each centre at or to the right of

@@ -12,6 +12,7 @@
 #include "recon/contours/cell_distances.h"
 #include "recon/contours/contour.h"
 #include "recon/contours/contour_cells_view.h"
+#include "recon/contours/raw_bytes.h"
 
 namespace elbowroom::recon {
 
@@ -22,6 +23,9 @@ class ContourCells {
  public:
   // The contour must have edges, all within `bounds_px`.
   ContourCells(const Contour& contour, bool exterior_is_object, const Eigen::AlignedBox2d& bounds_px);
+  // Those that were written, of the same contour. Throws: core::Error{kFile}: they weren't.
+  ContourCells(const Contour& contour, const Eigen::AlignedBox2d& bounds_px, RawReader* reader);
+  void Write(RawWriter* writer) const;
 
   [[nodiscard]] const Eigen::Vector2d& origin_px() const { return origin_px_; }
   [[nodiscard]] double cell_px() const { return cell_px_; }
@@ -49,6 +53,8 @@ class ContourCells {
   [[nodiscard]] ContourCellsView CellsView() const;
 
  private:
+  explicit ContourCells(const Eigen::AlignedBox2d& bounds_px);  // where they lie; nothing in them
+
   // An edge touches a cell.
   struct Touch {
     std::uint32_t cell, edge;
@@ -58,6 +64,7 @@ class ContourCells {
   void VisitCells(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& visit) const;
   [[nodiscard]] std::vector<Touch> Touches(const Contour& contour) const;
   std::vector<std::uint32_t> ListEdges(const Contour& contour);
+  void TakeSegments(const Contour& contour);  // of the edges listed
   void LabelCentres(const Contour& contour, bool exterior_is_object,
                     std::span<const std::uint32_t> mixed_cells);
 

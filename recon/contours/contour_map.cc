@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
 #include "core/infinity.h"
 #include "recon/contours/contour_cells.h"
 #include "recon/contours/contour_kernel.h"
+#include "recon/contours/raw_bytes.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -31,6 +33,14 @@ double SquaredDistance(const Vector2d& p, const ContourCellsView::Edge& edge) {
   return (ap - ab * (along / length2)).squaredNorm();
 }
 
+// x and y of one after the other.
+template <typename Vertices>
+auto CoordinatesOf(Vertices& vertices) {
+  static_assert(sizeof(Vector2d) == 2 * sizeof(double));
+  const std::span all(vertices);
+  return std::span(all.empty() ? nullptr : all.front().data(), 2 * all.size());
+}
+
 }  // namespace
 
 // Queries of the contour's cells.
@@ -39,6 +49,11 @@ class ContourMap::Grid {
   Grid(const Contour& contour, bool exterior_is_object, const Eigen::AlignedBox2d& bounds_px)
       : cells_(contour, exterior_is_object, bounds_px) {}
 
+  // One that was written, of the same contour.
+  Grid(const Contour& contour, const Eigen::AlignedBox2d& bounds_px, RawReader* reader)
+      : cells_(contour, bounds_px, reader) {}
+
+  void Write(RawWriter* writer) const { cells_.Write(writer); }
   [[nodiscard]] ContourCellsView CellsView() const { return cells_.CellsView(); }
 
   struct Place {
@@ -128,6 +143,46 @@ ContourMap::ContourMap(Contour contour, bool exterior_is_object)
 }
 
 ContourMap::~ContourMap() = default;
+
+std::string ContourMap::Bytes() const {
+  RawWriter writer;
+  writer.AddOne(exterior_is_object_);
+  writer.AddOne(contour_.vertices.size());
+  writer.Add(std::span<const double>(CoordinatesOf(contour_.vertices)));
+  writer.AddOne(contour_.edges.size());
+  writer.Add(std::span<const ContourEdge>(contour_.edges));
+  if (!bounds_px_.isEmpty()) grid().Write(&writer);
+  return writer.bytes();
+}
+
+std::shared_ptr<const ContourMap> ContourMap::FromBytes(std::string_view bytes) {
+  try {
+    RawReader reader(bytes);
+    const bool exterior_is_object = reader.ReadOne<char>() != 0;
+    Contour contour;
+    contour.vertices.resize(reader.ReadCount(sizeof(Vector2d)));
+    reader.Read(CoordinatesOf(contour.vertices));
+    contour.edges.resize(reader.ReadCount(sizeof(ContourEdge)));
+    reader.Read(std::span(contour.edges));
+    contour.edge_from.resize(contour.vertices.size());
+    contour.edge_to.resize(contour.vertices.size());
+    for (std::uint32_t e = 0; e < contour.edges.size(); ++e) {
+      const auto& [from, to] = contour.edges[e];
+      RawReader::Check(from < contour.vertices.size() && to < contour.vertices.size());
+      contour.edge_from[from] = e;
+      contour.edge_to[to] = e;
+    }
+    const auto map = std::make_shared<ContourMap>(std::move(contour), exterior_is_object);
+    if (map->bounds_px_.isEmpty()) return map;
+    std::call_once(map->once_, [&] {
+      map->grid_ = std::make_unique<const Grid>(map->contour_, map->bounds_px_, &reader);
+    });
+    map->ready_.store(map->grid_.get(), std::memory_order_release);
+    return map;
+  } catch (const core::Error&) {
+    return nullptr;
+  }
+}
 
 const ContourMap::Grid& ContourMap::grid() const {
   if (const Grid* ready = ready_.load(std::memory_order_acquire)) return *ready;

@@ -10,6 +10,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "recon/contours/contour.h"
 #include "recon/contours/contour_cells_view.h"
@@ -28,6 +30,11 @@ class ContourMap {
  public:
   ContourMap(Contour contour, bool exterior_is_object);
   ~ContourMap();
+
+  // Contour and grid as bytes, for this program: FromBytes() gives a map with the same answers in a fraction
+  // of the time that making it takes. Builds the grid. Null: the bytes aren't those of a map.
+  [[nodiscard]] std::string Bytes() const;
+  [[nodiscard]] static std::shared_ptr<const ContourMap> FromBytes(std::string_view bytes);
 
   [[nodiscard]] const Contour& contour() const { return contour_; }
   [[nodiscard]] bool exterior_is_object() const { return exterior_is_object_; }

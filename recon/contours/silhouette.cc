@@ -20,10 +20,20 @@ Silhouette::Silhouette(std::shared_ptr<const UndistortedPlane> plane, core::Soft
 const ContourMap& Silhouette::labels() const {
   if (const ContourMap* ready = ready_.load(std::memory_order_acquire)) return *ready;
   std::call_once(once_, [this] {
-    labels_.emplace(TraceContour(soft_mask_, exterior_is_object_, *plane_), exterior_is_object_);
-    ready_.store(&*labels_, std::memory_order_release);
+    labels_ = std::make_shared<const ContourMap>(TraceContour(soft_mask_, exterior_is_object_, *plane_),
+                                                 exterior_is_object_);
+    ready_.store(labels_.get(), std::memory_order_release);
   });
   return *labels_;
+}
+
+void Silhouette::TakeLabels(std::shared_ptr<const ContourMap> labels) const {
+  core::Require(labels != nullptr && labels->exterior_is_object() == exterior_is_object_,
+                "a contour with the silhouette's exterior");
+  std::call_once(once_, [&] {
+    labels_ = std::move(labels);
+    ready_.store(labels_.get(), std::memory_order_release);
+  });
 }
 
 }  // namespace elbowroom::recon

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "core/soft_mask.h"
 #include "recon/contours/contour_map.h"
@@ -27,6 +26,8 @@ class Silhouette {
   [[nodiscard]] bool exterior_is_object() const { return exterior_is_object_; }
   [[nodiscard]] bool shows_object() const { return shows_object_; }  // some pixel is
   [[nodiscard]] const ContourMap& labels() const;
+  // What labels() would trace, from where it was kept. Changes nothing if it was traced already.
+  void TakeLabels(std::shared_ptr<const ContourMap> labels) const;
   [[nodiscard]] bool is_traced() const { return ready_.load(std::memory_order_acquire) != nullptr; }
 
  private:
@@ -35,7 +36,7 @@ class Silhouette {
   bool exterior_is_object_;
   bool shows_object_;
   mutable std::once_flag once_;
-  mutable std::optional<ContourMap> labels_;
+  mutable std::shared_ptr<const ContourMap> labels_;
   mutable std::atomic<const ContourMap*> ready_ = nullptr;  // labels_, once it is there
 };
 

@@ -142,6 +142,7 @@ nlohmann::json SweepJson(const SweepOptions& options, const control::SpacingSwee
   json["queries"] = sweep.count.queries;
   json["revisions"] = RevisionsJson(sweep);
   json["hulls"] = sweep.hulls;
+  json["hulls_kept"] = sweep.hulls_kept;
   json["cells"] = sweep.cells;
   json["cells_from_before"] = sweep.cells_from_before;
   json["engine"] = control::ToString(options.engine);
@@ -243,6 +244,10 @@ void AddSweepCommand(CLI::App& app, Choice* choice) {
       ->required();
   AddRevisionOption(*command, &options->revisions);
   AddEngineOption(*command, &options->engine);
+  command->add_flag(
+      "--keep-hulls", options->request.keeps_hulls,
+      "keep the hulls, too, so that changed CAD needs none of them again: about as many bytes a "
+      "frame as docs/scale.md says");
   command->add_flag("--cells-only", options->cells_only,
                     "keep the cells, write no files: for an engine's jobs");
   command->callback(

@@ -8,11 +8,12 @@
 namespace elbowroom::control {
 
 RecordedMotion::RecordedMotion(const core::Rig& rig, std::vector<sessions::FrameSummary> frames,
-                               std::vector<sessions::StampRow> stamps, FrameReader read)
+                               std::vector<sessions::StampRow> stamps, FrameReader read, HullKeeper keeper)
     : rig_(std::make_shared<const core::Rig>(rig)),
       frames_(std::move(frames)),
       stamps_(std::move(stamps)),
-      read_(std::move(read)) {}
+      read_(std::move(read)),
+      keeper_(std::move(keeper)) {}
 
 MotionFrame RecordedMotion::Load(std::size_t position) {
   if (stamps_.empty()) return Follow(position);
@@ -32,7 +33,7 @@ MotionFrame RecordedMotion::Follow(std::size_t position) {
   // these sizes are made.
   if (planes_.empty()) planes_ = recon::MakeUndistortedPlanes(*rig_);
   SharedHull hull = recon::NextHull(last_, rig_, planes_, *frame.record.masks).hull;
-  if (hull != last_) ++hulls_made_;
+  if (hull != last_) ++(keeper_ && keeper_(*hull) ? hulls_kept_ : hulls_made_);
   last_ = std::move(hull);
   next_ = position + 1;
   frame.hull = last_;

@@ -26,11 +26,14 @@ struct MotionFrame {
 class RecordedMotion {
  public:
   using FrameReader = std::function<core::FrameRecord(core::FrameIndex)>;
+  // Gives a new hull what is kept of it (recon::Silhouette::TakeLabels). True: nothing of it is left to be
+  // made.
+  using HullKeeper = std::function<bool(const recon::VisualHull&)>;
 
   // `frames`: all of the session; `stamps`: the session's stamp rows, where a clearance is required; else
   // none: motion doesn't count then. Throws: what `read` throws.
   RecordedMotion(const core::Rig& rig, std::vector<sessions::FrameSummary> frames,
-                 std::vector<sessions::StampRow> stamps, FrameReader read);
+                 std::vector<sessions::StampRow> stamps, FrameReader read, HullKeeper keeper = {});
 
   // Whether what a frame gives depends on frames before it.
   [[nodiscard]] bool CountsMotion() const { return !stamps_.empty(); }
@@ -40,6 +43,7 @@ class RecordedMotion {
   [[nodiscard]] MotionFrame Load(std::size_t position);
 
   [[nodiscard]] std::int64_t hulls_made() const { return hulls_made_; }
+  [[nodiscard]] std::int64_t hulls_kept() const { return hulls_kept_; }
 
  private:
   [[nodiscard]] MotionFrame Follow(std::size_t position);
@@ -48,11 +52,12 @@ class RecordedMotion {
   std::vector<sessions::FrameSummary> frames_;
   std::vector<sessions::StampRow> stamps_;
   FrameReader read_;
+  HullKeeper keeper_;
   recon::UndistortedPlanes planes_;  // none before the first frame
   recon::MotionHistory motions_;
   SharedHull last_;
   std::size_t next_ = 0;  // position
-  std::int64_t hulls_made_ = 0;
+  std::int64_t hulls_made_ = 0, hulls_kept_ = 0;
 };
 
 }  // namespace elbowroom::control

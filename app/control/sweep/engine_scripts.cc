@@ -47,17 +47,17 @@ std::string ShellWord(const std::string& text) {
 std::string CommandsOf(const SweepRequest& request, const std::string& threads) {
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   const SpacingRange& range = request.range;
-  std::string revisions;
+  std::string more = request.keeps_hulls ? "--keep-hulls " : "";
   for (const SweepRevision& revision : request.revisions)
     for (const std::string& argument : revision.arguments)
-      revisions += fmt::format("--revision {} ", ShellWord(argument));
+      more += fmt::format("--revision {} ", ShellWord(argument));
   std::string commands;
   for (const fs::path& session : request.sessions)
     commands += fmt::format(
         "{} sweep {} --spacing {} {}--out {} --threads {} --cells-only\n", ShellWord(program),
         ShellWord(fs::absolute(session).string()),
-        ShellWord(fmt::format("{}={}:{}:{}", range.spacing, range.from_mm, range.to_mm, range.step_mm)),
-        revisions, ShellWord(fs::absolute(request.folder).string()), threads);
+        ShellWord(fmt::format("{}={}:{}:{}", range.spacing, range.from_mm, range.to_mm, range.step_mm)), more,
+        ShellWord(fs::absolute(request.folder).string()), threads);
   return commands;
 }
 

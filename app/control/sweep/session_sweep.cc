@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "app/control/sweep/kept_hulls.h"
 #include "app/control/trial_rules.h"
 #include "core/error.h"
 
@@ -234,6 +235,7 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
                    header.trial.estimate_mm, header.trial.required_clearance_mm,
                    frames_.without_camera,   {}};
   SweepCells kept(request_.folder, session_, request_.range);
+  std::optional<KeptHulls> hulls;
   std::optional<SweepFrameLoader> loader;
   std::vector<std::vector<StretchCurves>> stretches(judged_.size());
   const std::vector<double> steps_mm = options_.Steps();
@@ -252,8 +254,15 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
       }
     }
     if (!missing.empty()) {
-      if (!loader) loader.emplace(session_, frames_);
+      if (!loader) {
+        const auto folder = request_.keeps_hulls ? kept.FolderForHulls() : std::nullopt;
+        if (folder) hulls.emplace(*folder);
+        loader.emplace(session_, frames_,
+                       folder ? [&hulls](const recon::VisualHull& hull) { return hulls->Complete(hull); }
+                              : RecordedMotion::HullKeeper());
+      }
       kept.Keep(Ask(first, end, keys, missing, &*loader, stop));
+      if (hulls) hulls->Write();
     }
     piece.cells += std::ssize(all);
     std::vector<review::PartStudy> asked;
@@ -267,7 +276,10 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
     }
     frames_done(static_cast<std::int64_t>(end - first));
   }
-  if (loader) piece.hulls = loader->hulls_made();
+  if (loader) {
+    piece.hulls = loader->hulls_made();
+    piece.hulls_kept = loader->hulls_kept();
+  }
   piece.session.curves = CurvesOf(stretches.front());
   for (std::size_t k = 1; k < stretches.size(); ++k)
     piece.session.of_revisions.push_back(CurvesOf(stretches[k]));

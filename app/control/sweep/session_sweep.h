@@ -30,7 +30,7 @@ struct SweptParts {
 struct SessionPiece {
   SweptSession session;
   review::StudyCount count;
-  std::int64_t hulls = 0;
+  std::int64_t hulls = 0, hulls_kept = 0;
   std::int64_t cells = 0;
   std::int64_t cells_from_before = 0;
 };

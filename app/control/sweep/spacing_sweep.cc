@@ -81,6 +81,7 @@ SpacingSweep SweepSpacing(const SweepRequest& request, const core::Progress& pro
   for (SessionPiece& piece : pieces) {
     sweep.count += piece.count;
     sweep.hulls += piece.hulls;
+    sweep.hulls_kept += piece.hulls_kept;
     sweep.cells += piece.cells;
     sweep.cells_from_before += piece.cells_from_before;
     sweep.sessions.push_back(std::move(piece.session));

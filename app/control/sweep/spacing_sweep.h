@@ -37,6 +37,7 @@ struct SweepRequest {
   SpacingRange range;
   std::filesystem::path folder;               // keeps what is done, in `cells`; made if need be
   std::vector<SweepRevision> revisions = {};  // each has the spacing that is swept
+  bool keeps_hulls = false;                   // in `hulls`, for CAD to come
   // The files (CellFilesIn) whose cells count as kept from before. Nothing: all that are there.
   std::optional<std::set<std::string>> cells_before = {};
 };
@@ -76,9 +77,10 @@ struct SpacingSweep {
   std::vector<SweptSession> sessions;  // as they were asked for
   SweptCurves all;                     // of all sessions; without numbers of frames if there are several
   std::vector<SweptRevision> revisions = {};
-  review::StudyCount count;  // of the recorded layout and all revisions; what they share counts once
-  std::int64_t hulls = 0;    // that were made
-  std::int64_t cells = 0;    // a part in a stretch of a session's frames at all steps
+  review::StudyCount count;     // of the recorded layout and all revisions; what they share counts once
+  std::int64_t hulls = 0;       // that were made
+  std::int64_t hulls_kept = 0;  // that weren't, as they were kept (SweepRequest::keeps_hulls)
+  std::int64_t cells = 0;       // a part in a stretch of a session's frames at all steps
   std::int64_t cells_from_before = 0;  // of them: kept by a sweep that was ended early, or by another
 };
 

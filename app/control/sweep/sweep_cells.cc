@@ -165,6 +165,11 @@ std::string SweepCells::FileOf(const CellKey& key) const {
   return found == files_.end() ? "" : found->second;
 }
 
+std::optional<fs::path> SweepCells::FolderForHulls() const {
+  if (!keeps_) return std::nullopt;
+  return folder_.parent_path().parent_path() / "hulls" / folder_.filename();
+}
+
 void SweepCells::Keep(const SweepCellsByKey& cells) {
   if (keeps_) {
     const std::string bytes = BytesOf(cells);

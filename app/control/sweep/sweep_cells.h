@@ -60,6 +60,8 @@ class SweepCells {
   [[nodiscard]] const SweepCell* Find(const CellKey& key) const;
   // The name of the file that it was read from, as CellFilesIn gives it; empty: it wasn't there at first.
   [[nodiscard]] std::string FileOf(const CellKey& key) const;
+  // Where hulls of the session are kept. Nothing: it is still being recorded.
+  [[nodiscard]] std::optional<std::filesystem::path> FolderForHulls() const;
   // In one file, whole or not at all. Throws: core::Error{kFile}.
   void Keep(const SweepCellsByKey& cells);
 

@@ -31,13 +31,15 @@ SweepFrames SweepFramesOf(const sessions::SessionReader& session) {
                                 session.path().string()));
 }
 
-SweepFrameLoader::SweepFrameLoader(const sessions::SessionReader& session, const SweepFrames& frames)
+SweepFrameLoader::SweepFrameLoader(const sessions::SessionReader& session, const SweepFrames& frames,
+                                   RecordedMotion::HullKeeper keeper)
     : frames_(frames),
-      motion_(session.header().rig, session.frames(),
-              // Skew counts where a clearance is required.
-              session.header().trial.required_clearance_mm > 0.0 ? session.stamp_rows()
-                                                                 : std::vector<sessions::StampRow>(),
-              [&session](core::FrameIndex frame) { return session.ReadFrame(frame); }) {}
+      motion_(
+          session.header().rig, session.frames(),
+          // Skew counts where a clearance is required.
+          session.header().trial.required_clearance_mm > 0.0 ? session.stamp_rows()
+                                                             : std::vector<sessions::StampRow>(),
+          [&session](core::FrameIndex frame) { return session.ReadFrame(frame); }, std::move(keeper)) {}
 
 review::StudyFrame SweepFrameLoader::Load(std::size_t i) {
   MotionFrame frame = motion_.Load(frames_.frames[i].position);

@@ -30,12 +30,14 @@ struct SweepFrames {
 // frames must outlive it. Thread: one.
 class SweepFrameLoader {
  public:
-  SweepFrameLoader(const sessions::SessionReader& session, const SweepFrames& frames);
+  SweepFrameLoader(const sessions::SessionReader& session, const SweepFrames& frames,
+                   RecordedMotion::HullKeeper keeper = {});
 
   // The result is the same in any order.
   [[nodiscard]] review::StudyFrame Load(std::size_t i);
   // So far; those of frames whose silhouettes are the frame's before count once.
   [[nodiscard]] std::int64_t hulls_made() const { return motion_.hulls_made(); }
+  [[nodiscard]] std::int64_t hulls_kept() const { return motion_.hulls_kept(); }
 
  private:
   const SweepFrames& frames_;

@@ -214,5 +214,26 @@ TEST_F(SweepOfMany, IsTheSameBySlurmWithHalfOfItsProcessesKilled) {
   EXPECT_EQ(slurm->Queue(), "");
 }
 
+TEST_F(SweepOfMany, ChangedCadNeedsNoHullAgain) {
+  ExpectNothingLostOrDoubled("hulls", Sweep("hulls", {"--threads", "2", "--keep-hulls"}));
+  WritePayload("changed.stl", 1.1);
+  const std::vector<std::string> changed{"--revision",
+                                         "D:payload_a=" + (*folder_ / "changed.stl").string() + ":mm"};
+  std::vector<std::string> with_hulls = changed;
+  with_hulls.insert(with_hulls.end(), {"--threads", "2", "--keep-hulls"});
+  const nlohmann::json again = Sweep("hulls", with_hulls), fresh = Sweep("fresh", changed);
+  EXPECT_EQ(again["hulls"], 0);
+  EXPECT_GT(again["hulls_kept"], 0);
+  EXPECT_EQ(again["cells"].get<std::size_t>() - again["cells_from_before"].get<std::size_t>(),
+            sessions_.size())
+      << "the changed part's";
+  EXPECT_GT(fresh["hulls"], 0);
+  for (const char* key : {"all", "sessions", "revisions", "asked", "queries"})
+    EXPECT_TRUE(again[key] == fresh[key]) << key;
+  for (const char* file : {"sweep.csv", "revisions.csv", "revisions.html"})
+    EXPECT_TRUE(test_support::ReadText(Out("hulls") / file) == test_support::ReadText(Out("fresh") / file))
+        << file;
+}
+
 }  // namespace
 }  // namespace elbowroom::tests

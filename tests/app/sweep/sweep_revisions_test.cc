@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "app/control/demo_parts.h"
@@ -144,6 +145,43 @@ TEST_F(SweepRevisions, WhatIsWrongIsOneLine) {
     EXPECT_THAT(run.err, HasSubstr(word));
   }
   EXPECT_NE(RunSweep(sessions_, kRange, folder_ / "out", {"--revision", "C"}).exit_status, 0);
+}
+
+// Flips a bit in the middle of each file below the folder; how many there are.
+int DamageFilesIn(const fs::path& folder) {
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    std::string bytes = test_support::ReadText(entry.path());
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    std::ofstream(entry.path(), std::ios::binary) << bytes;
+    ++files;
+  }
+  return files;
+}
+
+TEST_F(SweepRevisions, AreJudgedAgainstHullsThatWereKept) {
+  const nlohmann::json first = Sweep(folder_ / "out", {"--keep-hulls"});
+  EXPECT_GT(first["hulls"], 0);
+  const auto expect_fresh = [&](const nlohmann::json& sweep) {
+    const nlohmann::json fresh = Sweep(folder_ / "fresh", {"--revision", Deeper()});
+    EXPECT_EQ(fresh["hulls_kept"], 0);
+    for (const char* key : {"all", "sessions", "revisions", "asked", "queries"})
+      EXPECT_EQ(sweep[key], fresh[key]) << key;
+    ExpectSameSweep(folder_ / "out", folder_ / "fresh");
+  };
+  const nlohmann::json changed = Sweep(folder_ / "out", {"--keep-hulls", "--revision", Deeper()});
+  EXPECT_EQ(changed["hulls"], 0);
+  EXPECT_EQ(changed["hulls_kept"], first["hulls"].get<int>() + first["hulls_kept"].get<int>());
+  EXPECT_GT(changed["cells"], changed["cells_from_before"]);
+  expect_fresh(changed);
+  // Damaged ones are made again.
+  EXPECT_EQ(DamageFilesIn(folder_ / "out/hulls"), 2) << "a file for each session";
+  fs::remove_all(folder_ / "out/cells");
+  const nlohmann::json damaged = Sweep(folder_ / "out", {"--keep-hulls", "--revision", Deeper()});
+  EXPECT_GT(damaged["hulls"], 0);
+  EXPECT_GT(damaged["hulls_kept"], 0);
+  expect_fresh(damaged);
 }
 
 }  // namespace
