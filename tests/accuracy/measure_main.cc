@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "cad_import/import_worker.h"
+#include "core/system/kept_memory.h"
 #include "tests/accuracy/measurements.h"
 
 int main(int argc, char** argv) {
   elbowroom::cad_import::ServeImport(argc, argv);  // returns unless this is a child that imports
+  elbowroom::core::KeepFreedMemory();              // as the program does
   using namespace elbowroom::accuracy;
   CLI::App app{"Measures accuracy and speed, and writes the tables and pictures in docs/."};
   std::filesystem::path docs, view_cost, program, json;

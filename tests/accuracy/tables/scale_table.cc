@@ -50,6 +50,13 @@ std::int64_t Sum(std::span<const std::int64_t> values) {
   return std::accumulate(values.begin(), values.end(), std::int64_t{0});
 }
 
+double BytesIn(const fs::path& folder) {
+  double bytes = 0.0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
+  return bytes;
+}
+
 std::string YesNo(bool is_so) { return is_so ? "yes" : "NO"; }
 
 class ScaleMeasurement {
@@ -136,7 +143,10 @@ class ScaleMeasurement {
          {"a cell (a part in up to 256 frames at eight gaps)",
           fmt::format("{:.0f}", static_cast<double>(store.bytes) / static_cast<double>(cells_.cells)),
           fmt::format("{:.1f}", static_cast<double>(store.bytes) / static_cast<double>(cells_.cells) *
-                                    sessions / frames)}}};
+                                    sessions / frames)},
+         {"a session's hulls, with `--keep-hulls`",
+          fmt::format("{:.0f}", bytes_of_hulls_a_frame_ * frames / sessions),
+          fmt::format("{:.0f}", bytes_of_hulls_a_frame_)}}};
     Write("store", table);
   }
 
@@ -164,6 +174,9 @@ class ScaleMeasurement {
         {"10,000 hours at 30 frames a second", "size", "files", "a month at 20 EUR a TB"},
         {{"sessions", fmt::format("{:.1f} TB", terabytes), "one a trial",
           fmt::format("{:.0f} EUR", terabytes * kEuroATerabyteMonth)},
+         {"hulls, if they are kept", fmt::format("{:.0f} TB", kTera * frames * bytes_of_hulls_a_frame_),
+          fmt::format("{:.1f} million", kMega * files),
+          fmt::format("{:.0f} EUR", kTera * frames * bytes_of_hulls_a_frame_ * kEuroATerabyteMonth)},
          {"cells of that sweep", fmt::format("{:.3f} TB", kTera * cells * bytes_a_cell),
           fmt::format("{:.1f} million", kMega * files),
           fmt::format("{:.2f} EUR", kTera * cells * bytes_a_cell * kEuroATerabyteMonth)}}};
@@ -181,6 +194,12 @@ class ScaleMeasurement {
     const MeasuredSweep first = Sweep("change", size, {"--threads", "1"});
     const MeasuredSweep all_kept = Sweep("change", size, {"--threads", "1"});
     const MeasuredSweep changed = Sweep("change", size, more);
+    const MeasuredSweep keeping = Sweep("hulls", size, {"--threads", "1", "--keep-hulls"});
+    more.emplace_back("--keep-hulls");
+    const MeasuredSweep changed_again = Sweep("hulls", size, more);
+    if (changed_again.hulls != 0 || !HaveSameResults(changed.out, changed_again.out))
+      throw core::Error(core::ErrorKind::kRange, "scale: kept hulls aren't those that would be made");
+    bytes_of_hulls_a_frame_ = BytesIn(keeping.out / "hulls") / static_cast<double>(FramesOf(size));
     const auto frames = static_cast<double>(FramesOf(size));
     ms_a_frame_of_change_ = 1e3 * (changed.wall_s - all_kept.wall_s) / frames;
     const auto row = [&](const std::string& what, const MeasuredSweep& run) {
@@ -191,9 +210,11 @@ class ScaleMeasurement {
                                       std::to_string(run.cells_from_before),
                                       std::to_string(run.hulls)};
     };
-    const reporting::Table table{{"one core", "time, s", "ms a frame", "cells", "kept", "hulls made"},
-                                 {row("first sweep, two revisions", first), row("the same again", all_kept),
-                                  row("one more revision of payload A", changed)}};
+    const reporting::Table table{
+        {"one core", "time, s", "ms a frame", "cells", "kept", "hulls made"},
+        {row("first sweep, two revisions", first), row("the same again", all_kept),
+         row("one more revision of payload A", changed), row("first sweep, with `--keep-hulls`", keeping),
+         row("one more revision of payload A, likewise", changed_again)}};
     if (kept.hulls != 0)
       throw core::Error(core::ErrorKind::kRange, "scale: a sweep of kept cells made hulls");
     Write("change", table);
@@ -224,7 +245,7 @@ class ScaleMeasurement {
   SimulatedCohort cohort_;
   std::vector<std::string> revisions_;
   MeasuredSweep cells_;  // of all sessions
-  double ms_a_frame_ = 0.0, ms_a_frame_of_change_ = 0.0;
+  double ms_a_frame_ = 0.0, ms_a_frame_of_change_ = 0.0, bytes_of_hulls_a_frame_ = 0.0;
 };
 
 }  // namespace
