@@ -12,6 +12,7 @@
 #include "app/control/simulation/cohort_table.h"
 #include "app/control/trial_runner.h"
 #include "core/error.h"
+#include "core/procedure/simulated.h"
 #include "core/system/file_sync.h"
 #include "core/system/whole_file.h"
 #include "recon/synthetic/rig_presets.h"
@@ -26,10 +27,10 @@ namespace fs = std::filesystem;
 // No trial has as many frames, so that no two have the same noise.
 constexpr core::FrameIndex kNoiseApart = 1'000'000;
 
-// What a session says of how it came to be, so that nobody takes it for a person's.
+// What a session says of how it came to be.
 std::string NoteOf(const CohortOptions& options) {
-  return fmt::format("simulated: task {}, seed {}, {:g} s, {:g} Hz", ToString(options.task), options.seed,
-                     options.seconds, options.frame_rate_hz);
+  return fmt::format("{}task {}, seed {}, {:g} s, {:g} Hz", core::kSimulatedNote, ToString(options.task),
+                     options.seed, options.seconds, options.frame_rate_hz);
 }
 
 // Whether the file is the trial, recorded whole.

@@ -97,6 +97,12 @@ std::vector<std::string> BaselineNotes(const Study& study) {
 std::vector<std::string> NotesOf(const Study& study) {
   std::vector<std::string> notes = study.baseline.empty() ? std::vector<std::string>() : BaselineNotes(study);
   const auto count = [&](auto has) { return std::ranges::count_if(study.sessions, has); };
+  if (const auto simulated = count([](const StudySession& session) { return session.is_simulated; });
+      simulated > 0)
+    notes.push_back(
+        fmt::format("{} of {} sessions are simulated: their motion and estimates were drawn, and say nothing "
+                    "about people",
+                    simulated, study.sessions.size()));
   if (const auto without = count([](const StudySession& session) { return !session.has_code; }); without > 0)
     notes.push_back(
         fmt::format("{} of {} sessions name no participant: each counts as a participant of its own", without,

@@ -6,6 +6,7 @@
 
 #include "core/procedure/answers.h"
 #include "core/procedure/scores.h"
+#include "core/procedure/simulated.h"
 #include "core/procedure/step_runs.h"
 
 namespace elbowroom::control {
@@ -38,6 +39,7 @@ StudySession ReadStudySession(const sessions::SessionReader& session) {
   read.recording_id = session.recording_id();
   read.has_code = !trial.participant.empty();
   read.participant = read.has_code ? trial.participant : read.path.stem().string();
+  read.is_simulated = core::IsSimulated(events);
   read.task = trial.task;
   read.condition = trial.condition;
   read.order = trial.order;

@@ -24,6 +24,7 @@ struct StudySession {
   std::string recording_id;
   std::string participant;  // the code that the trial gives; without one the file's name
   bool has_code = true;
+  bool is_simulated = false;
   std::string task;        // empty: not given
   std::string condition;   // empty: none
   int order = 0;           // among the participant's trials; 0: not given

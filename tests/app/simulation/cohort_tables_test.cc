@@ -100,6 +100,7 @@ TEST_F(CohortTables, TableThreeIsThatOfTheMadeMotion) {
   const json cohort = Simulate({"payload", "--participants", "8", "--seconds", "4", "--rate", "8"});
   const json study = Study(cohort);
   ASSERT_EQ(study["rows"].size(), 8U);
+  EXPECT_TRUE(study["notes"][0].get<std::string>().starts_with("8 of 8 sessions are simulated: "));
   double made_mm = 0.0;
   for (std::size_t i = 0; i < 8; ++i) {
     const json& row = study["rows"][i];
