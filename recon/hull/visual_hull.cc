@@ -11,6 +11,7 @@
 #include "recon/contours/undistorted_plane.h"
 #include "recon/hull/camera_query.h"
 #include "recon/hull/hull_edges.h"
+#include "recon/hull/next_hull.h"
 
 namespace elbowroom::recon {
 namespace {
@@ -290,6 +291,12 @@ BoundingEdge VisualHull::EdgeAt(const Eigen::Vector3d& surface_point_in_world) c
 
 FrameHull NextHull(const std::shared_ptr<const VisualHull>& last, const std::shared_ptr<const core::Rig>& rig,
                    const UndistortedPlanes& planes, std::span<const core::SoftMask> masks) {
+  return NextHull(last, rig, planes, masks, {});
+}
+
+FrameHull NextHull(const std::shared_ptr<const VisualHull>& last, const std::shared_ptr<const core::Rig>& rig,
+                   const UndistortedPlanes& planes, std::span<const core::SoftMask> masks,
+                   const ContourGiver& give) {
   core::Require(rig != nullptr && masks.size() == rig->cameras.size() && planes.size() == masks.size(),
                 "one mask and one plane a camera");
   core::Require(!last || last->shared_rig() == rig, "frames of one rig");
@@ -306,6 +313,7 @@ FrameHull NextHull(const std::shared_ptr<const VisualHull>& last, const std::sha
     next.stats.empty_silhouettes += silhouettes[i]->shows_object() ? 0 : 1;
   }
   const bool is_unchanged = last && next.stats.unchanged_silhouettes == std::ssize(masks);
+  if (!is_unchanged && give) give(silhouettes);
   next.hull = is_unchanged ? last : std::make_shared<const VisualHull>(rig, std::move(silhouettes));
   for (const auto& silhouette : next.hull->silhouettes())
     next.stats.untraced_silhouettes += silhouette->is_traced() ? 0 : 1;

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "app/control/replay/frames_of_motion.h"
-#include "recon/hull/visual_hull.h"
+#include "recon/hull/next_hull.h"
 
 namespace elbowroom::control {
 
@@ -32,8 +32,10 @@ MotionFrame RecordedMotion::Follow(std::size_t position) {
   // Reading a frame checks that its silhouettes have the sizes of the cameras' pictures, before planes of
   // these sizes are made.
   if (planes_.empty()) planes_ = recon::MakeUndistortedPlanes(*rig_);
-  SharedHull hull = recon::NextHull(last_, rig_, planes_, *frame.record.masks).hull;
-  if (hull != last_) ++(keeper_ && keeper_(*hull) ? hulls_kept_ : hulls_made_);
+  bool is_kept = false;
+  const auto give = [&](auto silhouettes) { is_kept = keeper_ && keeper_(silhouettes); };
+  SharedHull hull = recon::NextHull(last_, rig_, planes_, *frame.record.masks, give).hull;
+  if (hull != last_) ++(is_kept ? hulls_kept_ : hulls_made_);
   last_ = std::move(hull);
   next_ = position + 1;
   frame.hull = last_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "app/control/frame_result.h"
@@ -26,9 +27,9 @@ struct MotionFrame {
 class RecordedMotion {
  public:
   using FrameReader = std::function<core::FrameRecord(core::FrameIndex)>;
-  // Gives a new hull what is kept of it (recon::Silhouette::TakeLabels). True: nothing of it is left to be
+  // Gives a hull's new silhouettes the contours that are kept (recon::ContourGiver). True: none is left to be
   // made.
-  using HullKeeper = std::function<bool(const recon::VisualHull&)>;
+  using HullKeeper = std::function<bool(std::span<const std::shared_ptr<const recon::Silhouette>>)>;
 
   // `frames`: all of the session; `stamps`: the session's stamp rows, where a clearance is required; else
   // none: motion doesn't count then. Throws: what `read` throws.

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <memory>
-#include <span>
 #include <string_view>
 #include <utility>
 
@@ -16,8 +14,6 @@
 #include "core/system/file_sync.h"
 #include "core/system/whole_file.h"
 #include "recon/contours/contour_map.h"
-#include "recon/contours/silhouette.h"
-#include "recon/hull/visual_hull.h"
 
 namespace elbowroom::control {
 namespace {
@@ -110,9 +106,12 @@ std::string KeptHulls::ReadPacked(const Key& key) const {
   return packed;
 }
 
-bool KeptHulls::Complete(const recon::VisualHull& hull) {
-  if (hull.IsEmpty()) return true;
-  const auto silhouettes = hull.silhouettes();
+bool KeptHulls::Complete(std::span<const std::shared_ptr<const recon::Silhouette>> silhouettes) {
+  // Where a camera sees nothing, no contour is needed (recon::VisualHull).
+  const auto excludes_all = [](const std::shared_ptr<const recon::Silhouette>& silhouette) {
+    return !silhouette->shows_object() && !silhouette->exterior_is_object();
+  };
+  if (std::ranges::any_of(silhouettes, excludes_all)) return true;
   std::vector<std::pair<Key, std::string>> made(silhouettes.size());
   tbb::parallel_for(std::size_t{0}, silhouettes.size(), [&](std::size_t i) {
     const recon::Silhouette& silhouette = *silhouettes[i];

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "recon/hull/visual_hull_declared.h"
+#include "recon/contours/silhouette.h"
 
 namespace elbowroom::control {
 
@@ -20,9 +22,9 @@ class KeptHulls {
   // of one session and one program.
   explicit KeptHulls(std::filesystem::path folder);
 
-  // Gives the hull's silhouettes their contours. Those that aren't kept are made at once, and waiting to be
+  // Gives a hull's new silhouettes their contours. Those that aren't kept are made at once, and waiting to be
   // written. True: none was made.
-  bool Complete(const recon::VisualHull& hull);
+  bool Complete(std::span<const std::shared_ptr<const recon::Silhouette>> silhouettes);
   // What is waiting, as one file. Throws: core::Error{kFile}.
   void Write();
 

@@ -258,7 +258,7 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
         const auto folder = request_.keeps_hulls ? kept.FolderForHulls() : std::nullopt;
         if (folder) hulls.emplace(*folder);
         loader.emplace(session_, frames_,
-                       folder ? [&hulls](const recon::VisualHull& hull) { return hulls->Complete(hull); }
+                       folder ? [&hulls](auto silhouettes) { return hulls->Complete(silhouettes); }
                               : RecordedMotion::HullKeeper());
       }
       kept.Keep(Ask(first, end, keys, missing, &*loader, stop));

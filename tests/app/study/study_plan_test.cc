@@ -190,5 +190,17 @@ TEST_F(StudyPlanTest, WhatIsWrongIsOneLineWithItsPlace) {
   EXPECT_THROW((void)ReadStudyPlan(folder_ / "nowhere.toml"), core::Error);
 }
 
+TEST(StudySample, IsThePlanOfTheNewcomersChapter) {
+  const fs::path sample = test_support::SourceFolder() / "docs/examples/study/STUDY.toml";
+  const std::vector<PlannedTrial> trials = PlannedTrials(ReadStudyPlan(sample));
+  ASSERT_EQ(trials.size(), 12U);
+  EXPECT_EQ(std::ranges::count(trials, "stiff cable", &PlannedTrial::condition), 6);
+  const std::string chapter = test_support::ReadText(test_support::SourceFolder() / "docs/first_study.md");
+  const std::string text = test_support::ReadText(sample);
+  EXPECT_NE(chapter.find(text.substr(text.find("name"))), std::string::npos);
+  EXPECT_NE(chapter.find(fmt::format("{}: 1. {}", trials[0].participant, trials[0].condition)),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace elbowroom::control
