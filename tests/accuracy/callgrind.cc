@@ -23,6 +23,11 @@ CallgrindCount CountInstructions(const std::filesystem::path& program,
         core::ErrorKind::kFile,
         fmt::format("'{}' isn't installed, so nothing is counted; install the package valgrind", valgrind));
   }
+  if (run.err.find("Unrecognised instruction") != std::string::npos)
+    throw core::Error(core::ErrorKind::kFile,
+                      fmt::format("valgrind doesn't know an instruction that {} executes on this processor, "
+                                  "so nothing is counted; count on another machine",
+                                  program.string()));
   const std::string marker = "Collected : ";
   const std::size_t place = run.err.find(marker);
   CallgrindCount count{0, run.out.substr(0, run.out.find('\n'))};

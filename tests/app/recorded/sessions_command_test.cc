@@ -165,7 +165,7 @@ TEST_F(AnswerCommand, OneBadLineAddsNothingAndIsNamed) {
                   "answers.csv:3: '8' can't be the answer to 'there'; it must be a "
                   "whole number from 1 to 7"},
         std::pair{good + "P1,2,after,,sick,much\n", "it must be 'none' or "},
-        std::pair{good + "P1,2,after,,their,3\n", "did you mean 'there'?"},
+        std::pair{good + "P1,2,after,,ther,3\n", "did you mean 'there'?"},
         std::pair{good + "P1,2,before,,there,3\n", "has no item 'there' of that phase"},
         std::pair{good + "P1,2,later,,there,3\n", "it must be before or after"},
         std::pair{good + "P1,2,,,How sure?,3\n", "asked more than once"},
