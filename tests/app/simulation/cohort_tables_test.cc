@@ -18,8 +18,9 @@ namespace {
 
 using nlohmann::json;
 
-// The hull of four cameras holds the real thing but for what segmentation loses at its edge, and more.
-constexpr double kLostMm = 1.0, kHullExcessMm = 2.0;
+// The hull of four cameras holds the real thing but for what segmentation loses at its edge, and more: above
+// the flat top of a block, too, as cameras look at it from the side.
+constexpr double kLostMm = 1.0, kHullExcessMm = 2.0, kBlockExcessMm = 5.0;
 
 using ByParticipant = std::map<std::string, double>;
 
@@ -120,13 +121,13 @@ TEST_F(CohortTables, TableThreeIsThatOfTheMadeMotion) {
 }
 
 TEST_F(CohortTables, BlocksGiveThePapersTablesOneAndTwo) {
-  const json cohort = Simulate({"blocks", "--participants", "6", "--seconds", "0.5", "--rate", "10"});
-  ASSERT_EQ(cohort["trials"].size(), 6U * 20U);
+  const json cohort = Simulate({"blocks", "--participants", "4", "--seconds", "0.5", "--rate", "10"});
+  ASSERT_EQ(cohort["trials"].size(), 4U * 20U);
   const json study = Study(cohort), beyond = Study(cohort, {"--baseline", "real"});
   for (const char* task : {"2 x 2, practice", "3 x 3, practice", "2 x 2, timed", "3 x 3, timed"}) {
     auto times = TimesOf(cohort, task);
-    ASSERT_EQ(times["real"].size(), 6U);
-    ASSERT_EQ(times["generic hands"].size(), 3U);
+    ASSERT_EQ(times["real"].size(), 4U);
+    ASSERT_EQ(times["generic hands"].size(), 2U);
     const std::string measure = std::string("step_s:") + task;
     // Table 1: the times by condition. Table 2: how they differ, of each participant's own in real space.
     ExpectComparison(study, measure, "faithful hands", "generic hands",
@@ -138,13 +139,13 @@ TEST_F(CohortTables, BlocksGiveThePapersTablesOneAndTwo) {
     EXPECT_GT(more.mean_a, 0.0) << "slower than in real space";
     ExpectComparison(beyond, measure, "faithful hands", "generic hands", more);
   }
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = 0; i < 4; ++i) {
     double known_mm = 0.0;
     for (const json& trial : cohort["trials"])
       if (trial["participant"] == study["rows"][i]["participant"])
         known_mm = std::max(known_mm, trial["needed_mm"].get<double>());
     EXPECT_GE(study["rows"][i]["needed_mm"].get<double>(), known_mm - kLostMm);
-    EXPECT_LE(study["rows"][i]["needed_mm"].get<double>(), known_mm + kHullExcessMm);
+    EXPECT_LE(study["rows"][i]["needed_mm"].get<double>(), known_mm + kBlockExcessMm);
   }
 }
 
