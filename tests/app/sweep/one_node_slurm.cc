@@ -62,7 +62,7 @@ std::string Configuration(const fs::path& folder, int processors, int max_array_
       "SelectType=select/cons_tres\nSelectTypeParameters=CR_CPU\n"
       "SchedulerType=sched/builtin\nSchedulerParameters=batch_sched_delay=0,sched_interval=1\n"
       "MpiDefault=none\nSwitchType=switch/none\nMailProg=/bin/true\n"
-      "ReturnToService=2\nKillWait=2\nMaxArraySize={5}\n"
+      "ReturnToService=2\nKillWait=2\nMaxArraySize={5}\nEnforcePartLimits=ALL\n"
       "NodeName={0} NodeAddr=127.0.0.1 CPUs={4} State=UNKNOWN\n"
       "PartitionName=all Nodes={0} Default=YES MaxTime=INFINITE State=UP\n",
       host, FreePort(), FreePort(), folder.string(), processors, max_array_size);
