@@ -192,7 +192,8 @@ TEST_F(SweepEngines, EndedItTakesItsArrayOutOfSlurm) {
     while (slurm->Queue().empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     ::kill(process, SIGINT);
   };
-  const auto run = RunSweep(sessions_, kRange, folder_ / "out", {"--engine", "slurm"}, ended);
+  const auto run =
+      RunSweep(sessions_, kRange, folder_ / "out", {"--engine", "slurm", "--threads", "1"}, ended);
   EXPECT_EQ(run.exit_status, 1) << run.out;
   for (int wait = 0; wait < 100 && !slurm->Queue().empty(); ++wait)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
