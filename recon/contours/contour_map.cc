@@ -152,7 +152,7 @@ std::string ContourMap::Bytes() const {
   writer.AddOne(contour_.edges.size());
   writer.Add(std::span<const ContourEdge>(contour_.edges));
   if (!bounds_px_.isEmpty()) grid().Write(&writer);
-  return writer.bytes();
+  return std::move(writer).Take();
 }
 
 std::shared_ptr<const ContourMap> ContourMap::FromBytes(std::string_view bytes) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "core/error.h"
 
@@ -24,7 +25,7 @@ class RawWriter {
     Add(std::span(&item, 1));
   }
 
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+  [[nodiscard]] std::string Take() && { return std::move(bytes_); }
 
  private:
   std::string bytes_;

@@ -1,6 +1,7 @@
 #include "app/control/study/study_block.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <set>
 
@@ -19,12 +20,12 @@ std::vector<std::filesystem::path> SessionsOfBlock(std::span<const std::filesyst
     if (!of.empty()) blocks.insert(of);
   }
   if (!kept.empty()) return kept;
-  std::string names;
-  for (const std::string& name : blocks) names += (names.empty() ? "'" : ", '") + name + "'";
   throw core::Error(
       core::ErrorKind::kRange,
-      names.empty() ? fmt::format("no session is of block '{}': none names a block; leave --block out", block)
-                    : fmt::format("no session is of block '{}'; choose one that there is: {}", block, names));
+      blocks.empty()
+          ? fmt::format("no session is of block '{}': none names a block; leave --block out", block)
+          : fmt::format("no session is of block '{}'; choose one that there is: '{}'", block,
+                        fmt::join(blocks, "', '")));
 }
 
 std::string LeftOutNote(std::size_t kept, std::size_t sessions, const std::string& block) {

@@ -1,6 +1,5 @@
 #include "app/control/sweep/kept_hulls.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <xxhash.h>
 #include <zstd.h>
@@ -10,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/control/sweep/sweep_cells.h"
 #include "core/error.h"
 #include "core/system/file_sync.h"
 #include "core/system/whole_file.h"
@@ -46,9 +46,11 @@ std::array<std::uint64_t, 2> HashOf(std::uint64_t camera, const core::SoftMask& 
   return {hash.high64, hash.low64};
 }
 
-// With a checksum, by which damage is noticed. Level 1: quick, and little larger than what level 3 makes.
-std::string Packed(const std::string& bytes) {
-  constexpr int kLevel = 1;
+}  // namespace
+
+std::string Packed(const recon::ContourMap& contour) {
+  constexpr int kLevel = 1;  // quick, and little larger than what level 3 makes
+  const std::string bytes = contour.Bytes();
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kLevel);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
@@ -60,7 +62,6 @@ std::string Packed(const std::string& bytes) {
   return packed;
 }
 
-// Null: damaged.
 std::shared_ptr<const recon::ContourMap> Unpacked(const std::string& packed) {
   constexpr std::uint64_t kLargest = std::uint64_t{1} << 30U;  // far beyond the grid of any picture
   const std::uint64_t size = ZSTD_getFrameContentSize(packed.data(), packed.size());
@@ -69,8 +70,6 @@ std::shared_ptr<const recon::ContourMap> Unpacked(const std::string& packed) {
   if (ZSTD_decompress(bytes.data(), bytes.size(), packed.data(), packed.size()) != size) return nullptr;
   return recon::ContourMap::FromBytes(bytes);
 }
-
-}  // namespace
 
 KeptHulls::KeptHulls(fs::path folder) : folder_(std::move(folder)) {
   std::error_code none;
@@ -122,7 +121,7 @@ bool KeptHulls::Complete(std::span<const std::shared_ptr<const recon::Silhouette
     if (labels) {
       silhouette.TakeLabels(std::move(labels));
     } else {
-      made[i] = {key, Packed(silhouette.labels().Bytes())};
+      made[i] = {key, Packed(silhouette.labels())};
     }
   });
   bool all_kept = true;
@@ -147,8 +146,7 @@ void KeptHulls::Write() {
     places.push_back({key, {{}, std::ssize(bytes), std::ssize(packed)}});
     bytes += packed;
   }
-  const XXH128_hash_t hash = XXH3_128bits(keys.data(), keys.size());
-  const fs::path file = folder_ / fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+  const fs::path file = folder_ / HashOfText(keys);
   core::WriteWholeFile(file, bytes);
   for (auto& [key, place] : places) {
     place.file = file;

@@ -14,6 +14,11 @@
 
 namespace elbowroom::control {
 
+// A contour with its grid as it is kept: packed by zstd, with a checksum by which damage is noticed.
+[[nodiscard]] std::string Packed(const recon::ContourMap& contour);
+// Null: damaged.
+[[nodiscard]] std::shared_ptr<const recon::ContourMap> Unpacked(const std::string& packed);
+
 // A hull is kept silhouette by silhouette, each under a hash of its camera and its pixels. Files appear whole
 // or not at all; several programs may write into one folder. Thread: one.
 class KeptHulls {

@@ -255,11 +255,12 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
     }
     if (!missing.empty()) {
       if (!loader) {
-        const auto folder = request_.keeps_hulls ? kept.FolderForHulls() : std::nullopt;
-        if (folder) hulls.emplace(*folder);
-        loader.emplace(session_, frames_,
-                       folder ? [&hulls](auto silhouettes) { return hulls->Complete(silhouettes); }
-                              : RecordedMotion::HullKeeper());
+        RecordedMotion::HullKeeper keeper;
+        if (const auto folder = kept.FolderForHulls(); folder && request_.keeps_hulls) {
+          hulls.emplace(*folder);
+          keeper = [&hulls](auto silhouettes) { return hulls->Complete(silhouettes); };
+        }
+        loader.emplace(session_, frames_, std::move(keeper));
       }
       kept.Keep(Ask(first, end, keys, missing, &*loader, stop));
       if (hulls) hulls->Write();

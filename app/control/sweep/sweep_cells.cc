@@ -26,11 +26,6 @@ using nlohmann::json;
 constexpr const char* kCellFormat = "elbowroom-sweep-cells-2";
 constexpr std::size_t kHashDigits = 32;
 
-std::string HashOfText(std::string_view text) {
-  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
-  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
-
 std::string HashOfContent(const fs::path& path) {
   std::string digits;
   for (const std::byte byte : core::HashOfFile(path)) digits += fmt::format("{:02x}", byte);
@@ -84,6 +79,11 @@ SweepCell CellFrom(const json& value) {
 }
 
 }  // namespace
+
+std::string HashOfText(std::string_view text) {
+  const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
 
 // CBOR, RFC 8949: doubles keep their bits, strings their bytes. The hash of it stands behind.
 std::string BytesOf(const SweepCellsByKey& cells) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/control/sweep/spacing_sweep.h"
@@ -39,6 +40,9 @@ using SweepCellsByKey = std::map<CellKey, SweepCell>;
 // Bytes that give back every bit of the cells. Nothing: they aren't what BytesOf made.
 [[nodiscard]] std::string BytesOf(const SweepCellsByKey& cells);
 [[nodiscard]] std::optional<SweepCellsByKey> ParseSweepCells(const std::string& bytes);
+
+// 128-bit XXH3 as 32 hex digits: what is kept is named after it.
+[[nodiscard]] std::string HashOfText(std::string_view text);
 
 // Where a sweep's folder has its cells: a folder for each session, with a file for each set of cells that
 // were found together. Two such folders are merged by copying one into the other.

@@ -1,7 +1,6 @@
 #include "tests/accuracy/scale/hull_bounds.h"
 
 #include <fmt/format.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 #include <utility>
 
 #include "app/control/demo_parts.h"
+#include "app/control/sweep/kept_hulls.h"
 #include "app/control/sweep/sweep_frames.h"
 #include "core/bvh.h"
 #include "core/error.h"
@@ -41,7 +41,6 @@ constexpr std::size_t kMostSessions = 4;
 constexpr std::size_t kFramesACell = 256;  // as a sweep's
 // What a clearance of 15 mm needs at most to be sure: the search's tolerance beside it.
 constexpr double kEnoughMm = 16.0;
-constexpr int kLevel = 1;  // of zstd, as control::KeptHulls has it
 
 double MsSince(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -90,16 +89,13 @@ struct Costs {
     double keeping_ms = 0.0, taking_ms = 0.0, of_maps = 0.0, of_packed = 0.0;
     for (const auto& silhouette : hull.silhouettes()) {
       auto begin = Clock::now();
-      const std::string bytes = silhouette->labels().Bytes();
-      std::string packed(ZSTD_compressBound(bytes.size()), '\0');
-      packed.resize(ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel));
+      const std::string packed = control::Packed(silhouette->labels());
       keeping_ms += MsSince(begin);
       begin = Clock::now();
-      std::string back(bytes.size(), '\0');
-      const std::size_t size = ZSTD_decompress(back.data(), back.size(), packed.data(), packed.size());
-      const auto map = recon::ContourMap::FromBytes(back);
+      const auto map = control::Unpacked(packed);
       taking_ms += MsSince(begin);
-      core::Require(size == bytes.size() && map && map->Bytes() == bytes, "a map comes back as it was");
+      const std::string bytes = silhouette->labels().Bytes();
+      core::Require(map && map->Bytes() == bytes, "a map comes back as it was");
       of_maps += static_cast<double>(bytes.size());
       of_packed += static_cast<double>(packed.size());
     }
