@@ -1,6 +1,7 @@
 // Eight GigE Vision cameras for a long time: every picture accounted for, cameras that go and come back,
 // memory that stays.
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -35,8 +37,10 @@ constexpr double kMegabyte = 1024.0 * 1024.0;
 
 const auto* const kNetwork = ::testing::AddGlobalTestEnvironment(new testing::OwnNetwork(kCameras));
 
-// What this process and its camera programs have in memory that is theirs alone.
+// What this process and its camera programs have in memory that is theirs alone; but for what this process
+// has freed and its C library keeps.
 double OwnMemoryBytes() {
+  ::malloc_trim(0);
   double bytes = 0.0;
   const auto add = [&](const std::filesystem::path& process) {
     std::ifstream file(process / "smaps_rollup");
@@ -55,6 +59,26 @@ double OwnMemoryBytes() {
   }
   return bytes;
 }
+
+// The least memory within a part of the time. More pictures than the pool holds are on their way when a
+// processor is late: that memory comes and goes, and a leak stays.
+class LeastMemory {
+ public:
+  LeastMemory(double begin_s, double end_s) : next_s_(begin_s), end_s_(end_s) {}
+
+  void Look(double now_s) {
+    if (now_s < next_s_ || now_s > end_s_) return;
+    least_bytes_ = std::min(least_bytes_, OwnMemoryBytes());
+    next_s_ = now_s + kEveryS;
+  }
+  [[nodiscard]] double bytes() const { return least_bytes_; }
+
+ private:
+  static constexpr double kEveryS = 0.25;
+
+  double next_s_, end_s_;
+  double least_bytes_ = std::numeric_limits<double>::infinity();
+};
 
 void Print(const char* what, std::vector<double> ms) {
   if (ms.empty()) return;
@@ -92,7 +116,7 @@ TEST(LiveSoak, EightCamerasAreAccountedForAndKeepTheirMemory) {
   };
   std::vector<Outage> outages{{2, 0.2 * seconds}, {0, 0.6 * seconds}};
   std::vector<double> back_ms;
-  double warm_bytes = 0.0;
+  LeastMemory warm(0.4 * seconds, 0.5 * seconds), last(0.9 * seconds, seconds);
   std::int64_t incomplete = 0, sets = 0;
   const Clock::time_point begin = Clock::now();
   const auto now_s = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
@@ -117,9 +141,10 @@ TEST(LiveSoak, EightCamerasAreAccountedForAndKeepTheirMemory) {
         EXPECT_EQ(rig.states()[static_cast<std::size_t>(outage.camera)].report.exposure_us, 5000.0);
       }
     }
-    if (warm_bytes == 0.0 && now_s() > 0.4 * seconds) warm_bytes = OwnMemoryBytes();
+    warm.Look(now_s());
+    last.Look(now_s());
   }
-  const double grown_bytes = OwnMemoryBytes() - warm_bytes;
+  const double grown_bytes = last.bytes() - warm.bytes();
   accounts.ExpectWhole();
   EXPECT_EQ(back_ms.size(), outages.size());
 
@@ -133,7 +158,7 @@ TEST(LiveSoak, EightCamerasAreAccountedForAndKeepTheirMemory) {
   const std::lock_guard lock(mutex);
   Print("sets decided after the last arrival", decision_ms);
   Print("back after it is switched on", back_ms);
-  std::printf("memory from 40 %% of the time to the end: %+.2f MB\n", grown_bytes / kMegabyte);
+  std::printf("memory from 40 to 50 %% of the time to the last tenth: %+.2f MB\n", grown_bytes / kMegabyte);
   EXPECT_LE(grown_bytes, kMegabyte);
 }
 
