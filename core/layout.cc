@@ -1,6 +1,7 @@
 #include "core/layout.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -92,8 +93,10 @@ SpacingIndex RequireSpacing(const Layout& layout, const std::string& name, std::
   if (const auto index = layout.FindSpacing(name)) return *index;
   std::vector<std::string_view> known;
   for (const Spacing& spacing : layout.spacings) known.emplace_back(spacing.name);
+  const std::string there_is = known.empty() ? std::string("the layout has no [[spacing]]")
+                                             : fmt::format("there is '{}'", fmt::join(known, "', '"));
   throw Error(ErrorKind::kRange, fmt::format("{}: no spacing is named '{}'; {}", option, name,
-                                             SpellingAdvice(name, known, "use the name of a [[spacing]]")));
+                                             SpellingAdvice(name, known, there_is)));
 }
 
 std::vector<double> Layout::InitialSpacings() const {

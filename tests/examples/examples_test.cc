@@ -78,6 +78,32 @@ TEST_F(FirstRig, IsCalibratedGaugedTriedAndReported) {
   EXPECT_THAT(page, HasSubstr("<b>passed</b>"));
 }
 
+// The chapter's last step, with two of its twelve participants.
+TEST(FirstStudy, TrialsOfThePlanAreAStudy) {
+  const test_support::TemporaryFolder folder;
+  fs::copy(kSource.parent_path(), folder.path(), fs::copy_options::recursive);
+  const auto run = [&](std::vector<std::string> arguments) {
+    const auto ran =
+        test_support::RunProgram(test_support::ProgramFile(), arguments, {.working_folder = folder.path()});
+    EXPECT_EQ(ran.exit_status, 0) << arguments[0] << ": " << ran.err;
+    return ran.out;
+  };
+  run({"calibrate", "first_rig/CALIB.toml", "--out", "first_rig/rig.yml"});
+  run({"plan", "study/STUDY.toml", "--trials", "trials"});
+  for (const std::string participant : {"P01", "P02"})
+    run({"trial", "run", "trials/" + participant + "-1.toml", "--session", participant + ".db",
+         "--headless"});
+  const auto study = nlohmann::json::parse(run({"study", "P01.db", "P02.db", "--out", "report", "--json"}));
+  EXPECT_EQ(study["spacing"], "bracket_gap");
+  ASSERT_EQ(study["rows"].size(), 2U);
+  // The hand's height over the table, from the fingers' middle at 60 mm to their upper side.
+  for (const auto& row : study["rows"]) {
+    EXPECT_GT(row["needed_mm"], 60.0) << study.dump();
+    EXPECT_LT(row["needed_mm"], 100.0) << study.dump();
+  }
+  EXPECT_TRUE(fs::exists(folder / "report" / "report.html"));
+}
+
 // The pictures that ship are those that the generator draws, up to the JPEG coder.
 TEST_F(FirstRig, ShipsThePicturesThatAreDrawn) {
   const test_support::TemporaryFolder drawn;

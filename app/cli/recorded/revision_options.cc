@@ -35,6 +35,12 @@ void Add(const RevisionSetting& setting, const CommandContext& context, control:
          std::vector<std::string>* warnings) {
   revision->arguments.push_back(TextOf(setting));
   if (setting.part) {
+    const std::vector<control::PartRevision>& parts = revision->changes.parts;
+    if (std::ranges::find(parts, setting.part->name, &control::PartRevision::part) != parts.end())
+      throw core::Error(core::ErrorKind::kRange,
+                        fmt::format("--revision: '{}' has two files for the part '{}'; give the second "
+                                    "another name",
+                                    setting.name, setting.part->name));
     revision->changes.parts.push_back(PartRevisionOf(*setting.part, context, warnings));
     return;
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -159,7 +161,14 @@ void Take(const GivenAnswer& given, AskedSession* session) {
 std::vector<SessionAnswers> MatchAnswers(std::span<const std::filesystem::path> sessions,
                                          std::span<const GivenAnswer> given, const std::stop_token& stop) {
   std::vector<AskedSession> read;
-  for (const std::filesystem::path& path : sessions) read.push_back(ReadSession(path, stop));
+  std::set<std::filesystem::path> seen;
+  for (const std::filesystem::path& path : sessions) {
+    std::error_code unknown;
+    if (!seen.insert(std::filesystem::weakly_canonical(path, unknown)).second)
+      throw Error(ErrorKind::kRange,
+                  fmt::format("session '{}' is given twice; leave one out", path.string()));
+    read.push_back(ReadSession(path, stop));
+  }
   for (const GivenAnswer& answer : given) Take(answer, &SessionOf(answer, &read));
   std::vector<SessionAnswers> answers;
   for (AskedSession& session : read) answers.push_back(std::move(session.answers));

@@ -18,7 +18,7 @@ core::PartIndex RequirePart(const core::Layout& layout, const std::string& name)
   std::vector<std::string_view> known;
   for (const core::Part& part : layout.parts) known.emplace_back(part.name);
   throw core::Error(core::ErrorKind::kRange,
-                    fmt::format("--part: no part is named '{}'; {}", name,
+                    fmt::format("no part is named '{}'; {}", name,
                                 core::SpellingAdvice(name, known, "use the name of a [[part]]")));
 }
 

@@ -61,7 +61,14 @@ Section SummarySection(const SpacingRange& range, const SpacingSweep& sweep,
                                                    sweep.revisions[k].name, touching,
                                                    Motions(sweep.sessions.size()), RangeText(range)));
   }
-  return {.blocks = {std::move(verdict)}};
+  Section section{.blocks = {std::move(verdict)}};
+  const auto simulated = std::ranges::count_if(sweep.sessions, &SweptSession::is_simulated);
+  if (simulated > 0)
+    section.blocks.push_back(
+        Paragraph{fmt::format("Simulated: {} of {}. Such motion was drawn, and says nothing about people.",
+                              simulated, Motions(sweep.sessions.size())),
+                  true});
+  return section;
 }
 
 std::string ChangedText(const SweptRevision& revision) {
@@ -69,6 +76,29 @@ std::string ChangedText(const SweptRevision& revision) {
   for (const core::PartIndex part : revision.changed)
     names += (names.empty() ? "" : ", ") + revision.parts[part];
   return names.empty() ? "nothing" : names;
+}
+
+// What its files change, as a replay with them says it.
+std::vector<Paragraph> ChangesText(const SpacingSweep& sweep) {
+  std::vector<Paragraph> paragraphs;
+  for (const SweptRevision& revision : sweep.revisions)
+    for (const std::string& change : revision.changes)
+      paragraphs.push_back(Paragraph{fmt::format("Revision {}: {}.", revision.name, change), true});
+  return paragraphs;
+}
+
+// Values of a grid of gaps as ranges of neighbours: "120 to 160, 200".
+std::string GapsText(const std::vector<double>& steps_mm, const std::vector<RevisionTouch>& of_session) {
+  std::string text;
+  for (std::size_t first = 0; first < steps_mm.size(); ++first) {
+    if (of_session[first].frames_in_contact == 0) continue;
+    std::size_t last = first;
+    while (last + 1 < steps_mm.size() && of_session[last + 1].frames_in_contact > 0) ++last;
+    text += fmt::format("{}{:g}", text.empty() ? "" : ", ", steps_mm[first]);
+    if (last > first) text += fmt::format(" to {:g}", steps_mm[last]);
+    first = last;
+  }
+  return text;
 }
 
 std::string LengthText(const std::optional<double>& length_mm) {
@@ -90,13 +120,15 @@ Section RevisionSection(const SpacingSweep& sweep, const std::vector<RevisionTou
           LengthText(sweep.revisions[k].all.all.smallest_free_mm)}});
   table.rows.push_back({{RichText("as recorded"), RichText(kNone), RichText(kNone),
                          std::to_string(sweep.sessions.size()), LengthText(sweep.all.all.smallest_free_mm)}});
-  return {
+  Section section{
       .blocks = {Heading{"Revisions"},
                  Paragraph{"A motion touches a revision if, in some frame at some gap, a part that the "
                            "revision changes is in contact. Free from: the smallest gap at which, as at all "
                            "above, nothing is in a part that the gap moves.",
                            true},
                  std::move(table)}};
+  for (Paragraph& change : ChangesText(sweep)) section.blocks.push_back(std::move(change));
+  return section;
 }
 
 // Over the gap, how many motions touch each revision, and how many touched the same parts as recorded.
@@ -164,6 +196,7 @@ Section MotionSection(const SpacingSweep& sweep, const std::vector<RevisionTouch
     }
     DocumentTable table{{{"Session"},
                          {"Participant"},
+                         {"Touches at the gaps, mm"},
                          {"Deepest, mm", true},
                          {"at the gap, mm", true},
                          {"Frames in contact there", true},
@@ -172,6 +205,7 @@ Section MotionSection(const SpacingSweep& sweep, const std::vector<RevisionTouch
     for (const Row& row : std::span(rows).first(std::min(rows.size(), kMostRows))) {
       const SweptSession& session = sweep.sessions[row.session];
       table.rows.push_back({{NameText(session.path.filename().string()), NameText(session.participant),
+                             GapsText(steps_mm, touches[k].by_session[row.session]),
                              fmt::format("{:.1f}", row.worst.deepest_mm), fmt::format("{:g}", row.gap_mm),
                              std::to_string(row.worst.frames_in_contact),
                              std::to_string(session.of_revisions[k].all.frames)}});

@@ -129,6 +129,7 @@ SimulatedTrial PlanBlockTrial(const CohortOptions& options, const core::Layout& 
   TrialSetup& setup = trial.setup;
   setup.info.task = NameOf(pattern);
   setup.info.condition = pattern.condition;
+  setup.info.block = pattern.is_practice ? "practice" : "timed";
   setup.info.steps = {NameOf(pattern)};
   setup.layout = layout;
   setup.first_step = setup.info.steps.front();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -40,12 +42,48 @@ std::vector<StudyRow> RowsOf(const std::vector<StudySession>& sessions) {
   return rows;
 }
 
-// A row of which one session has no answer has none: its need may be larger than all that was tried.
+// A row of which one session needs more than all that was tried has no answer. One that needs less than that
+// changes nothing: the largest of the others is still the largest.
 void DropUnansweredNeeds(const std::vector<StudySession>& sessions, std::vector<StudyRow>* rows) {
   for (const StudySession& session : sessions) {
-    if (session.measures.contains("needed_mm")) continue;
-    std::ranges::find(*rows, session.participant, &StudyRow::participant)->needed_mm.reset();
+    const auto row = std::ranges::find(*rows, session.participant, &StudyRow::participant);
+    if (session.needed.is_above) row->needed_mm.reset();
+    if (session.needed_without_tools.is_above) row->needed_without_tools_mm.reset();
   }
+}
+
+// Of the sessions whose need lies beyond the gaps that were tried.
+std::vector<std::string> RangeNotes(const Study& study) {
+  std::vector<std::string> notes;
+  for (const StudySession& session : study.sessions) {
+    if (session.needed.is_above)
+      notes.push_back(fmt::format(
+          "{}: touched at the largest gap tried, {:g} mm: what is needed isn't known; give a larger range",
+          session.path.string(), study.range.to_mm));
+    if (session.needed.is_below || session.needed_without_tools.is_below)
+      notes.push_back(fmt::format(
+          "{}: free {}at the smallest gap tried, {:g} mm: less may be enough, so what is needed "
+          "isn't known; give a range that begins lower",
+          session.path.string(), session.needed.is_below ? "" : "without tools ", study.range.from_mm));
+  }
+  return notes;
+}
+
+// Conditions that are compared and have few participants, in a study that has enough.
+std::string FewInConditionsNote(const Study& study) {
+  std::map<std::string, std::size_t> few;  // the least of a condition's participants in a comparison
+  for (const Comparison& comparison : study.comparisons)
+    for (const auto& [condition, n] :
+         {std::pair(comparison.a, comparison.of_a.n), {comparison.b, comparison.of_b.n}})
+      if (n < kFew) few[condition] = std::min(n, few.try_emplace(condition, n).first->second);
+  std::string names;
+  for (const auto& [condition, n] : few)
+    names += fmt::format("{}'{}' {}", names.empty() ? "" : ", ", condition, n);
+  return names.empty() ? names
+                       : fmt::format(
+                             "few participants in a condition, {}: p and effect sizes of their "
+                             "comparisons say little about others",
+                             names);
 }
 
 void RequireCondition(const std::vector<std::filesystem::path>& sessions, const std::string& baseline,
@@ -107,11 +145,7 @@ std::vector<std::string> NotesOf(const Study& study) {
     notes.push_back(
         fmt::format("{} of {} sessions name no participant: each counts as a participant of its own", without,
                     study.sessions.size()));
-  for (const StudySession& session : study.sessions)
-    if (!session.measures.contains("needed_mm"))
-      notes.push_back(fmt::format(
-          "{}: touched at the largest gap tried, {:g} mm: what is needed isn't known; give a larger range",
-          session.path.string(), study.range.to_mm));
+  std::ranges::move(RangeNotes(study), std::back_inserter(notes));
   const auto short_of = [&](const char* what, auto missing) {
     const auto rows = std::ranges::count_if(study.rows, missing);
     if (rows > 0) notes.push_back(fmt::format("{} of {} participants {}", rows, study.rows.size(), what));
@@ -119,11 +153,14 @@ std::vector<std::string> NotesOf(const Study& study) {
   short_of("gave no estimate before their trials: they aren't in the mean shortfall",
            [](const StudyRow& row) { return !row.estimate_before_mm; });
   short_of("gave no estimate after their trials", [](const StudyRow& row) { return !row.estimate_after_mm; });
-  if (study.rows.size() < kFew)
+  if (study.rows.size() < kFew) {
     notes.push_back(
         fmt::format("few participants, {}: intervals and p say little about others, and a bootstrap interval "
                     "of so few is too narrow",
                     study.rows.size()));
+  } else if (std::string note = FewInConditionsNote(study); !note.empty()) {
+    notes.push_back(std::move(note));
+  }
   for (const Comparison& comparison : study.comparisons)
     if (comparison.in_both > 0 && !comparison.pairs) {
       notes.push_back(
@@ -157,7 +194,9 @@ SpacingRange FullRange(const std::filesystem::path& session, const std::string& 
     throw core::Error(
         core::ErrorKind::kRange,
         names.empty()
-            ? fmt::format("'{}': its layout has no gap, so no space can be studied", session.string())
+            ? fmt::format("'{}': its layout has no gap, so no space can be studied; give the layout a "
+                          "[[spacing]] before the trials are recorded",
+                          session.string())
             : fmt::format("'{}': its layout has several gaps, {}: choose one by --spacing NAME",
                           session.string(), names));
   }
@@ -181,13 +220,8 @@ Study MakeStudy(const SweepRequest& request, const core::Progress& progress, con
     const sessions::SessionReader reader(swept.path, stop);
     StudySession session = ReadStudySession(reader);
     dwell.Add(reader);
-    if (const auto needed_mm = NeededMm(swept.curves.all)) {
-      session.measures["needed_mm"] = *needed_mm;
-      if (session.estimate_before_mm)
-        session.measures["shortfall_mm"] = *needed_mm - *session.estimate_before_mm;
-    }
-    if (const auto needed_mm = NeededMm(swept.curves.without_tools))
-      session.measures["needed_without_tools_mm"] = *needed_mm;
+    const core::Layout& layout = reader.header().layout;
+    AddNeeds(swept, layout.spacings[core::RequireSpacing(layout, request.range.spacing)].min_mm, &session);
     study.sessions.push_back(std::move(session));
   }
   NameParticipantsApart(&study.sessions);

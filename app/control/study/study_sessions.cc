@@ -76,8 +76,24 @@ void NameParticipantsApart(std::vector<StudySession>* sessions) {
       session.participant += " (" + session.recording_id.substr(0, kDigits) + ")";
 }
 
-std::optional<double> NeededMm(const review::SpacingCurve& curve) {
-  return curve.frames > 0 ? curve.smallest_free_mm : std::nullopt;
+NeededGap NeededGapOf(const review::SpacingCurve& curve, double least_mm) {
+  if (curve.frames == 0) return {};
+  if (!curve.smallest_free_mm) return {.is_above = true};
+  const double first_mm = curve.steps.front().spacing_mm;
+  if (*curve.smallest_free_mm <= first_mm && first_mm > least_mm) return {.is_below = true};
+  return {.gap_mm = curve.smallest_free_mm};
+}
+
+void AddNeeds(const SweptSession& swept, double least_mm, StudySession* session) {
+  session->needed = NeededGapOf(swept.curves.all, least_mm);
+  session->needed_without_tools = NeededGapOf(swept.curves.without_tools, least_mm);
+  if (const auto needed_mm = session->needed.gap_mm) {
+    session->measures["needed_mm"] = *needed_mm;
+    if (session->estimate_before_mm)
+      session->measures["shortfall_mm"] = *needed_mm - *session->estimate_before_mm;
+  }
+  if (const auto needed_mm = session->needed_without_tools.gap_mm)
+    session->measures["needed_without_tools_mm"] = *needed_mm;
 }
 
 }  // namespace elbowroom::control

@@ -19,6 +19,17 @@ namespace elbowroom::control {
 // "needed_without_tools_mm", "shortfall_mm": what is needed less what was estimated before.
 using Measures = std::map<std::string, double>;
 
+// The smallest gap at which, as at all above, surely nothing touches in some frames. No length: there are no
+// such frames, or it lies beyond the gaps that were tried.
+struct NeededGap {
+  std::optional<double> gap_mm = {};
+  bool is_above = false;  // the largest gap tried was touched
+  bool is_below = false;  // the smallest gap tried was free, and there are smaller ones
+};
+
+// `least_mm`: the smallest gap that there is.
+[[nodiscard]] NeededGap NeededGapOf(const review::SpacingCurve& curve, double least_mm);
+
 struct StudySession {
   std::filesystem::path path;
   std::string recording_id;
@@ -32,6 +43,8 @@ struct StudySession {
   std::string started_at_utc;
   std::optional<double> estimate_before_mm;
   std::optional<double> estimate_after_mm;
+  NeededGap needed = {};
+  NeededGap needed_without_tools = {};  // in the frames in which none was marked in use
   Measures measures;
 
   [[nodiscard]] std::optional<double> Measured(const std::string& measure) const;
@@ -44,8 +57,7 @@ struct StudySession {
 // recording's number is added to it.
 void NameParticipantsApart(std::vector<StudySession>* sessions);
 
-// The smallest gap at which, as at all above, surely nothing touches in these frames. Nothing: no frames, or
-// the largest gap tried was touched.
-[[nodiscard]] std::optional<double> NeededMm(const review::SpacingCurve& curve);
+// What a sweep found of the session, and its measures.
+void AddNeeds(const SweptSession& swept, double least_mm, StudySession* session);
 
 }  // namespace elbowroom::control

@@ -34,14 +34,18 @@ std::string TrialTextOf(const PlannedTrial& trial, const fs::path& file) {
   return text;
 }
 
-void RequireFileName(const std::string& participant) {
-  if (participant.find('/') == std::string::npos && !participant.starts_with('.') &&
-      core::IsPlain(participant))
-    return;
-  throw core::Error(core::ErrorKind::kRange,
-                    fmt::format("participant '{}': no file can be named after it; take a code of letters and "
-                                "digits",
-                                core::Blanked(participant)));
+// The plan's sources are worth more than its table.
+void RequireNoSource(const StudyPlan& plan, const fs::path& csv) {
+  const auto is_csv = [&](const fs::path& source) {
+    std::error_code unknown;
+    return fs::equivalent(source, csv, unknown);
+  };
+  bool is_source = is_csv(plan.file);
+  for (const PlannedTrial& trial : PlannedTrials(plan)) is_source = is_source || is_csv(trial.trial_file);
+  if (is_source)
+    throw core::Error(
+        core::ErrorKind::kFile,
+        fmt::format("{}: the plan is made from this file; give its table another name", csv.string()));
 }
 
 // Whether it is there and says that; throws where it says something else.
@@ -58,6 +62,7 @@ bool IsThere(const fs::path& file, const std::string& text) {
 }  // namespace
 
 void WritePlan(const StudyPlan& plan, const std::filesystem::path& csv) {
+  RequireNoSource(plan, csv);
   std::string text = "participant,order,condition,block,task,trial\n";
   for (const PlannedTrial& trial : PlannedTrials(plan))
     text += fmt::format("{},{},{},{},{},{}\n", sessions::Quoted(trial.participant), trial.order,
@@ -69,7 +74,6 @@ void WritePlan(const StudyPlan& plan, const std::filesystem::path& csv) {
 std::vector<fs::path> WriteTrialFiles(const StudyPlan& plan, const fs::path& folder) {
   std::vector<fs::path> files;
   core::PendingFiles pending;
-  for (const std::string& participant : plan.participants) RequireFileName(participant);
   core::MakeFolder(folder);
   for (const PlannedTrial& trial : PlannedTrials(plan)) {
     const fs::path& file =

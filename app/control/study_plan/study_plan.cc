@@ -10,6 +10,7 @@
 
 #include "cad_import/layout/toml_entry.h"
 #include "core/error.h"
+#include "core/plain_text.h"
 #include "core/statistics/balanced_orders.h"
 
 namespace elbowroom::control {
@@ -25,10 +26,11 @@ constexpr std::array<std::string_view, 3> kTaskKeys = {"name", "block", "trial"}
 constexpr std::int64_t kMostParticipants = 10'000;
 
 std::uint64_t ReadSeed(const TomlEntry& root) {
+  constexpr const char* kShape = "a whole number, 0 or more: the same one gives the same plan again";
   const toml::node* node = root.Find("seed");
-  const auto seed = node == nullptr ? std::nullopt : node->value_exact<std::int64_t>();
-  if (!seed || *seed < 0)
-    root.Fail("seed", "must be a whole number, 0 or more: the same one gives the same plan again");
+  if (node == nullptr) root.Fail("seed", fmt::format("is missing; add it, {}", kShape));
+  const auto seed = node->value_exact<std::int64_t>();
+  if (!seed || *seed < 0) root.Fail("seed", fmt::format("must be {}", kShape));
   return static_cast<std::uint64_t>(*seed);
 }
 
@@ -41,19 +43,30 @@ StudyDesign ReadDesign(const TomlEntry& root) {
   return StudyDesign::kWithin;
 }
 
+// A file can be named after it, and no program for tables takes it for a formula.
+void RequireCode(const TomlEntry& root, const std::string& code) {
+  constexpr std::string_view kNotFirst = ".=+-@";
+  if (!code.empty() && code.find('/') == std::string::npos &&
+      kNotFirst.find(code.front()) == std::string_view::npos && core::IsPlain(code))
+    return;
+  root.Fail("participants",
+            fmt::format("'{}' can't be a participant's code; take letters and digits", core::Blanked(code)));
+}
+
 // A list of codes, or how many: P01, P02, ...
 std::vector<std::string> ReadParticipants(const TomlEntry& root) {
   const toml::node* node = root.Find("participants");
   constexpr const char* kShape = "must be a list of codes, or how many there are";
-  if (node == nullptr) root.Fail("participants", kShape);
+  if (node == nullptr) root.Fail("participants", fmt::format("is missing; it {}", kShape));
   if (node->is_array()) {
     std::vector<std::string> codes = root.Texts("participants");
     if (codes.empty()) root.Fail("participants", kShape);
     std::set<std::string> seen;
-    for (const std::string& code : codes)
-      if (code.empty() || !seen.insert(code).second)
-        root.Fail("participants", fmt::format("'{}' is {}; give each a code of its own", code,
-                                              code.empty() ? "no code" : "there twice"));
+    for (const std::string& code : codes) {
+      RequireCode(root, code);
+      if (!seen.insert(code).second)
+        root.Fail("participants", fmt::format("'{}' is there twice; give each a code of its own", code));
+    }
     return codes;
   }
   const auto count = node->value_exact<std::int64_t>();
@@ -89,7 +102,7 @@ StudyPlan ReadStudyPlan(const fs::path& path) {
   const toml::table table = cad_import::ParseTomlFile(path, "study file");
   const TomlEntry root(table, path.string(), "", kPlanKeys);
   const fs::path folder = path.parent_path();
-  StudyPlan plan{root.Text("name"), ReadSeed(root), ReadDesign(root), ReadParticipants(root), {}, {}};
+  StudyPlan plan{path, root.Text("name"), ReadSeed(root), ReadDesign(root), ReadParticipants(root), {}, {}};
   const fs::path of_all = ReadTrial(root, folder);
   for (const TomlEntry& entry : root.Entries("condition", kConditionKeys)) {
     PlannedCondition condition{entry.Text("name"), ReadTrial(entry, folder)};

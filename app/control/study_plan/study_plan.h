@@ -26,10 +26,12 @@ enum class StudyDesign {
 };
 
 struct StudyPlan {
+  std::filesystem::path file;  // that it was read from
   std::string name;
   std::uint64_t seed = 0;
   StudyDesign design = StudyDesign::kBetween;
-  std::vector<std::string> participants;     // codes; at least one, each once
+  // Codes that files can be named after; at least one, each once.
+  std::vector<std::string> participants;
   std::vector<PlannedCondition> conditions;  // at least one; their names differ
   std::vector<PlannedTask> tasks;            // at least one
 };

@@ -1,5 +1,7 @@
 #include "app/control/sweep/session_sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -9,6 +11,7 @@
 #include "app/control/sweep/kept_hulls.h"
 #include "app/control/trial_rules.h"
 #include "core/error.h"
+#include "core/procedure/simulated.h"
 
 namespace elbowroom::control {
 namespace {
@@ -105,9 +108,20 @@ SessionSweep::SessionSweep(const std::filesystem::path& session, const SweepRequ
     : request_(request), session_(session, stop) {
   session_.Freeze();
   options_ = OptionsOf(session_.header(), request.range);
-  judged_.push_back(JudgedWith({}));
-  for (const SweepRevision& revision : request.revisions) judged_.push_back(JudgedWith(revision.changes));
+  judged_.push_back(JudgedAs("", {}));
+  for (const SweepRevision& revision : request.revisions)
+    judged_.push_back(JudgedAs(revision.name, revision.changes));
   frames_ = SweepFramesOf(session_);
+}
+
+SessionSweep::Judged SessionSweep::JudgedAs(const std::string& revision, const ReplayChanges& changes) const {
+  try {
+    return JudgedWith(changes);
+  } catch (const core::Error& error) {
+    const std::string of_revision = revision.empty() ? "" : fmt::format(", revision '{}'", revision);
+    throw core::Error(error.kind(),
+                      fmt::format("'{}'{}: {}", session_.path().string(), of_revision, error.what()));
+  }
 }
 
 SessionSweep::Judged SessionSweep::JudgedWith(const ReplayChanges& changes) const {
@@ -145,6 +159,12 @@ std::vector<core::PartIndex> SessionSweep::ChangedIn(const Judged& judged) const
     }
   }
   return {changed.begin(), changed.end()};
+}
+
+std::vector<std::vector<std::string>> SessionSweep::ChangesOfRevisions() const {
+  std::vector<std::vector<std::string>> changes;
+  for (std::size_t k = 1; k < judged_.size(); ++k) changes.push_back(judged_[k].replayed.changes());
+  return changes;
 }
 
 std::vector<SweptParts> SessionSweep::Parts() const {
@@ -230,10 +250,15 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
                                const std::stop_token& stop) const {
   const core::SessionHeader& header = session_.header();
   SessionPiece piece;
-  piece.session = {session_.path(),          session_.recording_id(),
-                   header.started_at_utc,    header.trial.participant,
-                   header.trial.estimate_mm, header.trial.required_clearance_mm,
-                   frames_.without_camera,   {}};
+  piece.session = {session_.path(),
+                   session_.recording_id(),
+                   header.started_at_utc,
+                   header.trial.participant,
+                   core::IsSimulated(session_.events()),
+                   header.trial.estimate_mm,
+                   header.trial.required_clearance_mm,
+                   frames_.without_camera,
+                   {}};
   SweepCells kept(request_.folder, session_, request_.range);
   std::optional<KeptHulls> hulls;
   std::optional<SweepFrameLoader> loader;

@@ -47,6 +47,8 @@ class SessionSweep {
   // Of the recorded layout, then of each revision.
   [[nodiscard]] std::vector<SweptParts> Parts() const;
   [[nodiscard]] std::string recording_id() const { return session_.recording_id(); }
+  // What each revision changes, in words.
+  [[nodiscard]] std::vector<std::vector<std::string>> ChangesOfRevisions() const;
 
   // `frames_done` is called with a number of frames that are through; together they are frame_count().
   // Throws: as SweepSpacing.
@@ -65,6 +67,8 @@ class SessionSweep {
   using MeshHashes = std::vector<std::vector<std::string>>;  // likewise
 
   [[nodiscard]] Judged JudgedWith(const ReplayChanges& changes) const;
+  // The same; what can't be judged is said of the session, and of the revision if it has a name.
+  [[nodiscard]] Judged JudgedAs(const std::string& revision, const ReplayChanges& changes) const;
   // The parts that have another shape than in the recorded layout, or another place at an end of the range.
   [[nodiscard]] std::vector<core::PartIndex> ChangedIn(const Judged& judged) const;
   [[nodiscard]] MeshHashes HashMeshes() const;

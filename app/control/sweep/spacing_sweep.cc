@@ -70,10 +70,13 @@ SpacingSweep SweepSpacing(const SweepRequest& request, const core::Progress& pro
   SharedProgress shared(progress, total, "frames");
   std::vector<SessionPiece> pieces(request.sessions.size());
   std::vector<SweptParts> parts;  // of the first session, and so of each
+  std::vector<std::vector<std::string>> changes;
   RunTasks(request.sessions.size(), "the sweep", stop, [&](std::size_t i, const std::stop_token& token) {
     const SessionSweep session(request.sessions[i], request, token);
     pieces[i] = session.Run([&](std::int64_t frames) { shared.Add(frames); }, token);
-    if (i == 0) parts = session.Parts();
+    if (i > 0) return;
+    parts = session.Parts();
+    changes = session.ChangesOfRevisions();
   });
   SpacingSweep sweep;
   sweep.parts = parts.front().names;
@@ -94,7 +97,7 @@ SpacingSweep SweepSpacing(const SweepRequest& request, const core::Progress& pro
   sweep.all = together([](const SweptSession& session) { return session.curves; });
   for (std::size_t k = 0; k < request.revisions.size(); ++k)
     sweep.revisions.push_back(
-        {request.revisions[k].name, parts[k + 1].names, parts[k + 1].moved, parts[k + 1].changed,
+        {request.revisions[k].name, parts[k + 1].names, parts[k + 1].moved, parts[k + 1].changed, changes[k],
          together([k](const SweptSession& session) { return session.of_revisions[k]; })});
   progress.Report(total, total, "frames");
   return sweep;

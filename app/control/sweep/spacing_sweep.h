@@ -54,6 +54,7 @@ struct SweptSession {
   std::string recording_id;
   std::string started_at_utc;
   std::string participant;
+  bool is_simulated = false;
   double estimate_mm = 0.0;                // 0: none given
   double required_clearance_mm = 0.0;      // 0: only contact was judged
   std::int64_t frames_without_camera = 0;  // left out: a picture is missing, so the hull is larger
@@ -67,7 +68,8 @@ struct SweptRevision {
   std::vector<std::string> parts;
   std::vector<core::PartIndex> moved;
   std::vector<core::PartIndex>
-      changed;  // of another shape, or elsewhere, than in the recorded layout; or new
+      changed;                       // of another shape, or elsewhere, than in the recorded layout; or new
+  std::vector<std::string> changes;  // in words, a line each; of the first session's layout
   SweptCurves all;
 };
 

@@ -58,6 +58,15 @@ fs::path ProgramOf(SweepEngine engine, const std::string& name, const char* pack
                                 ToString(engine), name, package));
 }
 
+// The last one that isn't empty: what came before it led to it.
+std::string LastLine(const std::string& text) {
+  const std::size_t last = text.find_last_not_of(" \n");
+  if (last == std::string::npos) return {};
+  const std::size_t before = text.rfind('\n', last);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  return text.substr(first, last + 1 - first);
+}
+
 // What the process complained of that complained first; empty: none did. The others may only say that they
 // were ended for its sake, so the time counts and not the name.
 std::string FirstComplaint(const fs::path& folder) {
@@ -160,7 +169,11 @@ class EngineRun {
       why = fmt::format(
           "a process was killed {} times; '{}' says by what: is there enough memory for {} processes?",
           kMostAttempts, (folder_ / "killed").string(), threads_);
-    if (why.empty()) why = core::PrintableLine(TextIn(folder_ / kSaid), 500);
+    if (why.empty()) {
+      if (const std::string said = LastLine(TextIn(folder_ / kSaid)); !said.empty())
+        why = fmt::format("{}; put that right, or submit '{}' where there is a cluster",
+                          core::PrintableLine(said, 500), Script().string());
+    }
     if (why.empty())
       why = fmt::format("'{}' {}; what it left is in '{}'", program_.string(), core::TextOfEnd(status),
                         folder_.string());

@@ -190,6 +190,7 @@ TEST_F(AnswerCommand, OneBadLineAddsNothingAndIsNamed) {
     EXPECT_TRUE(sessions::SessionReader(a).events().empty()) << lines;
   }
   EXPECT_THAT(Answer({a, "--give", "there"}).err, HasSubstr("must be ITEM=ANSWER"));
+  EXPECT_THAT(Answer({a, a, "--give", "there=3"}).err, HasSubstr("a.db' is given twice"));
   EXPECT_EQ(Answer({a}).exit_status, 2) << "neither a table nor answers";
   EXPECT_EQ(Answer({a, "--csv", "nowhere.csv"}).exit_status, 1);
 }

@@ -139,6 +139,7 @@ TEST_F(CohortTables, BlocksGiveThePapersTablesOneAndTwo) {
     EXPECT_GT(more.mean_a, 0.0) << "slower than in real space";
     ExpectComparison(beyond, measure, "faithful hands", "generic hands", more);
   }
+  EXPECT_EQ(Study(cohort, {"--baseline", "real", "--block", "timed"})["sessions"], 4 * (6 + 4));
   for (std::size_t i = 0; i < 4; ++i) {
     double known_mm = 0.0;
     for (const json& trial : cohort["trials"])

@@ -1,4 +1,5 @@
 // What `study` refuses, and what it says where something is missing.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +32,8 @@ TEST_F(StudyCommand, SaysWhatIsWrongInOneLineAndLeavesNothing) {
   EXPECT_EQ(Study({}).exit_status, 1) << "no such session";
   tests::RecordReach(folder_ / "s.db", {"P1", "bare", 1, 100.0, 0.0, 80.0});
   for (const auto& [spacing, word] :
-       {std::pair{"lid_gpa", "did you mean 'lid_gap'"}, std::pair{"lid_gap=0:200:10", "from 20 to 300"}}) {
+       {std::pair{"lid_gpa", "did you mean 'lid_gap'"}, std::pair{"width", "there is 'lid_gap'"},
+        std::pair{"lid_gap=0:200:10", "from 20 to 300"}}) {
     const ProgramRun run = Study({"--spacing", spacing});
     EXPECT_EQ(run.exit_status, 1);
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
@@ -61,6 +63,50 @@ TEST_F(StudyCommand, WhatIsNotKnownIsMissingAndSaid) {
   for (const char* word : {"name no participant", "touched at the largest gap tried, 60 mm",
                            "gave no estimate before", "gave no estimate after"})
     EXPECT_NE(notes.find(word), std::string::npos) << word << " in\n" << notes;
+}
+
+// What was free at the smallest gap tried may need less, where the layout has smaller gaps.
+TEST_F(StudyCommand, WhatIsFreeAtTheSmallestGapTriedIsNotKnown) {
+  tests::RecordReach(folder_ / "s.db", {"P1", "", 1, 100.0, 0.0, 80.0});
+  tests::RecordReach(folder_ / "higher.db", {"P2", "", 1, 100.0, 0.0, 80.0});
+  tests::RecordReach(folder_ / "highest.db", {"P2", "", 2, 100.0, 0.0, 150.0});
+  const std::string higher = (folder_ / "higher.db").string(), highest = (folder_ / "highest.db").string();
+  const auto study_from = [&](const char* range) {
+    const ProgramRun run = Study({higher, highest, "--json", "--spacing", range});
+    EXPECT_EQ(run.exit_status, 0) << run.err;
+    return nlohmann::json::parse(run.out);
+  };
+  const auto above = study_from("lid_gap=120:200:10"), all = study_from("lid_gap=20:200:10");
+  EXPECT_TRUE(above["rows"][0]["needed_mm"].is_null()) << above.dump();
+  EXPECT_TRUE(above["rows"][0]["needed_without_tools_mm"].is_null());
+  EXPECT_TRUE(above["rows"][0]["shortfall_mm"].is_null());
+  EXPECT_LT(all["rows"][0]["needed_mm"], 100.0);
+  for (const char* key : {"needed_mm", "needed_without_tools_mm"})
+    EXPECT_EQ(above["rows"][1][key], all["rows"][1][key]) << "the larger of both sessions is known";
+  EXPECT_EQ(above["mean_shortfall_mm"], above["rows"][1]["shortfall_mm"]);
+  std::size_t notes = 0;
+  for (const auto& note : above["notes"])
+    notes += note.get<std::string>().find("free at the smallest gap tried, 120 mm") != std::string::npos;
+  EXPECT_EQ(notes, 2U) << above["notes"].dump();
+  for (const auto& note : all["notes"])
+    EXPECT_EQ(note.get<std::string>().find("smallest gap"), std::string::npos) << note;
+}
+
+TEST_F(StudyCommand, FewInAConditionIsSaidOfManyParticipants) {
+  std::vector<std::string> more{"--json", "--spacing", "lid_gap=60:120:30"};
+  for (int i = 0; i < 12; ++i) {
+    const auto file = i == 0 ? folder_ / "s.db" : folder_ / fmt::format("s{}.db", i);
+    tests::RecordReach(file, {.participant = fmt::format("P{}", i),
+                              .condition = i < 10 ? "bare" : "gloves",
+                              .estimate_before_mm = 80.0 + i});
+    if (i > 0) more.push_back(file.string());
+  }
+  const ProgramRun run = Study(more);
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  const auto study = nlohmann::json::parse(run.out);
+  EXPECT_NE(study["notes"].dump().find("few participants in a condition, 'gloves' 2: "), std::string::npos)
+      << study["notes"].dump();
+  EXPECT_EQ(study["notes"].dump().find("'bare' 10"), std::string::npos);
 }
 
 TEST_F(StudyCommand, ToldInWordsIsATable) {

@@ -141,10 +141,18 @@ TEST_F(StudyPlanTest, NoFileThatSaysSomethingElseIsReplaced) {
   EXPECT_NE(run.err.find("P12-6.toml: is there and says something else"), std::string::npos) << run.err;
   EXPECT_FALSE(fs::exists(folder_ / "P01-1.toml")) << "all or none";
   EXPECT_EQ(test_support::ReadText(folder_ / "P12-6.toml"), "rig = \"mine.yml\"\n");
-  std::string text = kWithin;
-  Write(text.replace(text.find("12"), 2, "[\"../P\"]"));
-  EXPECT_NE(Plan({"--trials", (folder_ / "trials").string()}).err.find("no file can be named after it"),
-            std::string::npos);
+}
+
+TEST_F(StudyPlanTest, ItsOwnFilesAreNotReplacedByItsTable) {
+  Write(kWithin);
+  for (const char* name : {"STUDY.toml", "TRIAL.toml", "THICK.toml"}) {
+    const std::string before = test_support::ReadText(folder_ / name);
+    const auto run = Plan({"--out", (folder_ / name).string()});
+    EXPECT_EQ(run.exit_status, 1) << name;
+    EXPECT_NE(run.err.find(std::string(name) + ": the plan is made from this file"), std::string::npos)
+        << run.err;
+    EXPECT_EQ(test_support::ReadText(folder_ / name), before);
+  }
 }
 
 TEST_F(StudyPlanTest, AnUnevenNumberIsSaid) {
@@ -173,6 +181,9 @@ TEST_F(StudyPlanTest, WhatIsWrongIsOneLineWithItsPlace) {
        {std::pair{without("seed = 7"), "seed"}, std::pair{with("seed = 7", "seed = -1"), "seed"},
         std::pair{without("name = \"gloves\""), "name"}, std::pair{with("\"within\"", "\"both\""), "between"},
         std::pair{with("participants = 12", "participants = []"), "participants"},
+        std::pair{with("participants = 12", ""), "'participants' is missing"},
+        std::pair{with("participants = 12", "participants = [\"../P\"]"), "can't be a participant's code"},
+        std::pair{with("participants = 12", "participants = [\"=1+1\"]"), "can't be a participant's code"},
         std::pair{with("participants = 12", "participants = 0"), "1 to 10000"},
         std::pair{with("participants = 12", "participants = [\"A\", \"A\"]"), "there twice"},
         std::pair{with("\"thin\"", "\"bare\""), "earlier condition"},

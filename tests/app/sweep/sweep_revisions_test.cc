@@ -123,13 +123,24 @@ TEST_F(SweepRevisions, GnuParallelGivesTheSameFiles) {
 }
 
 TEST_F(SweepRevisions, TheReportSaysWhichMotionsTouch) {
-  Sweep(folder_ / "out", {"--revision", Deeper()});
+  const nlohmann::json sweep = Sweep(folder_ / "out", {"--revision", Deeper()});
   if (HasPdfReaders()) {
     ExpectGoodPdf(folder_ / "out/revisions.pdf");
     const std::string text = Squeezed(TextOf(folder_ / "out/revisions.pdf"));
-    for (const char* word : {"RevisionC:", "of2recordedmotionstouch", "payload_a", "s20.db"})
+    for (const char* word : {"RevisionC:", "of2recordedmotionstouch", "payload_a", "s20.db", "deeper.stl"})
       EXPECT_THAT(text, HasSubstr(word));
   }
+  // Each motion's gaps are those of the table of all figures.
+  const std::string page = test_support::ReadText(folder_ / "out/revisions.html");
+  EXPECT_THAT(page, HasSubstr("Touches at the gaps, mm"));
+  for (const auto& session : sweep["revisions"][0]["sessions"]) {
+    const std::vector<std::int64_t> frames = session["frames_in_contact"];
+    const auto is_touched = [](std::int64_t count) { return count > 0; };
+    const auto end = std::ranges::find_if_not(frames, is_touched) - frames.begin();
+    ASSERT_TRUE(end >= 2 && std::none_of(frames.begin() + end, frames.end(), is_touched)) << session.dump();
+    EXPECT_THAT(page, HasSubstr(fmt::format(">140 to {}<", 140 + 20 * (end - 1))));
+  }
+  EXPECT_THAT(page, HasSubstr("its shape is that of"));
   if (!HasBrowser()) GTEST_SKIP() << "NOT TESTED: no /usr/bin/chromium";
   ExpectPageWorks(folder_ / "out/revisions.html", folder_ / "shots");
 }
@@ -138,6 +149,9 @@ TEST_F(SweepRevisions, WhatIsWrongIsOneLine) {
   for (const auto& [setting, word] :
        {std::pair{"C:payload_x=" + (folder_ / "deeper.stl").string() + ":mm", "payload_"},
         std::pair{"C:payload_a=" + (folder_ / "nowhere.stl").string(), "nowhere.stl"},
+        std::pair{"C:payload_x=" + (folder_ / "deeper.stl").string() + ":mm",
+                  "s20.db', revision 'C': no part"},
+        std::pair{"C:payload_a=" + (folder_ / "deeper.stl").string(), "PART=FILE:mm"},
         std::pair{"C=" + (folder_ / "nowhere.toml").string(), "nowhere.toml"}}) {
     const auto run = RunSweep(sessions_, kRange, folder_ / "out", {"--revision", setting});
     EXPECT_EQ(run.exit_status, 1);
@@ -145,6 +159,10 @@ TEST_F(SweepRevisions, WhatIsWrongIsOneLine) {
     EXPECT_THAT(run.err, HasSubstr(word));
   }
   EXPECT_NE(RunSweep(sessions_, kRange, folder_ / "out", {"--revision", "C"}).exit_status, 0);
+  const auto twice =
+      RunSweep(sessions_, kRange, folder_ / "out", {"--revision", Deeper(), "--revision", Deeper()});
+  EXPECT_EQ(twice.exit_status, 1);
+  EXPECT_THAT(twice.err, HasSubstr("'C' has two files for the part 'payload_a'"));
 }
 
 // Flips a bit in the middle of each file below the folder; how many there are.
