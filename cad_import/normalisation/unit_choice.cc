@@ -39,9 +39,8 @@ Eigen::AlignedBox3d BoundsOf(const RawScene& scene) {
   throw Error(
       ErrorKind::kCad,
       fmt::format(
-          "{0}: {1} carries no unit: {2}; most likely its unit is {3}: pass --unit, or PART=FILE:{3}, "
-          "or set `unit`",
-          where, ToString(format), sizes, core::ToString(LikelyUnit(bounds.sizes().maxCoeff()))));
+          "{0}: {1} carries no unit: {2}; most likely its unit is {3}: use --unit, FILE:{3} or `unit`", where,
+          ToString(format), sizes, core::ToString(LikelyUnit(bounds.sizes().maxCoeff()))));
 }
 
 }  // namespace

@@ -88,7 +88,7 @@ TEST_F(MeshFile, WithoutAUnitTheErrorShowsTheSizeInEach) {
     const std::string message = ErrorOf(ErrorKind::kCad, [&] { (void)ImportHere(path); });
     for (const char* expected : {name, "carries no unit", "1 x 2 x 3 mm if in mm", "10 x 20 x 30 mm if in cm",
                                  "1000 x 2000 x 3000 mm if in m", "25.4 x 50.8 x 76.2 mm if in in",
-                                 "pass --unit, or PART=FILE:", "or set `unit`"}) {
+                                 "use --unit, FILE:", "or `unit`"}) {
       EXPECT_TRUE(Mentions(message, expected)) << message;
     }
   }

@@ -91,15 +91,19 @@ TEST(FirstStudy, TrialsOfThePlanAreAStudy) {
   run({"calibrate", "first_rig/CALIB.toml", "--out", "first_rig/rig.yml"});
   run({"plan", "study/STUDY.toml", "--trials", "trials"});
   for (const std::string participant : {"P01", "P02"})
-    run({"trial", "run", "trials/" + participant + "-1.toml", "--session", participant + ".db",
-         "--headless"});
+    run({"trial", "run", "trials/" + participant + "-1.toml", "--session", participant + ".db", "--headless",
+         "--frames", fmt::format("{}:{}", kRodFrames, kRodFrames + kHandFrames)});
   const auto study = nlohmann::json::parse(run({"study", "P01.db", "P02.db", "--out", "report", "--json"}));
   EXPECT_EQ(study["spacing"], "bracket_gap");
   ASSERT_EQ(study["rows"].size(), 2U);
-  // The hand's height over the table, from the fingers' middle at 60 mm to their upper side.
+  // Below the bracket, which is a cube of 40 mm around (105, -20), above the plate, whose top is at 0.
+  const std::optional<double> highest_mm =
+      HighestOfHandMm({Eigen::Vector2d(85.0, -40.0), Eigen::Vector2d(125.0, 0.0)});
+  ASSERT_TRUE(highest_mm.has_value());
+  constexpr double kLostMm = 1.0, kHullExcessMm = 5.0;
   for (const auto& row : study["rows"]) {
-    EXPECT_GT(row["needed_mm"], 60.0) << study.dump();
-    EXPECT_LT(row["needed_mm"], 100.0) << study.dump();
+    EXPECT_GE(row["needed_mm"], *highest_mm - kLostMm);
+    EXPECT_LE(row["needed_mm"], *highest_mm + kHullExcessMm);
   }
   EXPECT_TRUE(fs::exists(folder / "report" / "report.html"));
 }

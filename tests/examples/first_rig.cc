@@ -11,6 +11,7 @@
 #include "recon/boards/board_drawing.h"
 #include "recon/synthetic/actors.h"
 #include "recon/synthetic/camera_view.h"
+#include "recon/synthetic/highest_point.h"
 #include "tests/recon/boards/board_picture.h"
 
 namespace elbowroom::examples {
@@ -104,6 +105,15 @@ void DrawCamera(const core::CameraCalibration& calibration, const Drawer& drawer
 }
 
 }  // namespace
+
+std::optional<double> HighestOfHandMm(const Eigen::AlignedBox2d& above_mm) {
+  std::optional<double> highest_mm;
+  for (int frame = 0; frame < kHandFrames; ++frame)
+    for (const recon::Solid& solid : HandAt(frame))
+      if (const auto z_mm = recon::HighestZMm(solid, above_mm))
+        highest_mm = std::max(highest_mm.value_or(*z_mm), *z_mm);
+  return highest_mm;
+}
 
 recon::Board FirstBoard() {
   recon::Board board;

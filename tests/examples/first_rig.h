@@ -1,7 +1,10 @@
 // The rig of docs/examples/first_rig: its truth, and how its pictures were made.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,10 @@ inline constexpr double kRodLengthMm = 120.0;
 
 // Three cameras of 480 x 360 around a table, in the board's world.
 [[nodiscard]] std::vector<core::CameraCalibration> FirstCameras();
+
+// z of the hand's highest point above the rectangle (x, y) of the world, over its frames; nothing: it isn't
+// there.
+[[nodiscard]] std::optional<double> HighestOfHandMm(const Eigen::AlignedBox2d& above_mm);
 
 // Draws camN/board_NN.jpg, camN/empty.jpg and camN/trial_NN.jpg into `folder`, the same each time; or only
 // those of these names ("cam1/empty.jpg").

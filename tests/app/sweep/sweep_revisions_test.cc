@@ -150,8 +150,8 @@ TEST_F(SweepRevisions, WhatIsWrongIsOneLine) {
        {std::pair{"C:payload_x=" + (folder_ / "deeper.stl").string() + ":mm", "payload_"},
         std::pair{"C:payload_a=" + (folder_ / "nowhere.stl").string(), "nowhere.stl"},
         std::pair{"C:payload_x=" + (folder_ / "deeper.stl").string() + ":mm",
-                  "s20.db', revision 'C': no part"},
-        std::pair{"C:payload_a=" + (folder_ / "deeper.stl").string(), "PART=FILE:mm"},
+                  ".db', revision 'C': no part"},
+        std::pair{"C:payload_a=" + (folder_ / "deeper.stl").string(), "FILE:mm"},
         std::pair{"C=" + (folder_ / "nowhere.toml").string(), "nowhere.toml"}}) {
     const auto run = RunSweep(sessions_, kRange, folder_ / "out", {"--revision", setting});
     EXPECT_EQ(run.exit_status, 1);
