@@ -110,8 +110,7 @@ std::optional<double> HighestOfHandMm(const Eigen::AlignedBox2d& above_mm) {
   std::optional<double> highest_mm;
   for (int frame = 0; frame < kHandFrames; ++frame)
     for (const recon::Solid& solid : HandAt(frame))
-      if (const auto z_mm = recon::HighestZMm(solid, above_mm))
-        highest_mm = std::max(highest_mm.value_or(*z_mm), *z_mm);
+      highest_mm = std::max(highest_mm, recon::HighestZMm(solid, above_mm));
   return highest_mm;
 }
 

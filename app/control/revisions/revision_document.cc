@@ -78,15 +78,6 @@ std::string ChangedText(const SweptRevision& revision) {
   return names.empty() ? "nothing" : names;
 }
 
-// What its files change, as a replay with them says it.
-std::vector<Paragraph> ChangesText(const SpacingSweep& sweep) {
-  std::vector<Paragraph> paragraphs;
-  for (const SweptRevision& revision : sweep.revisions)
-    for (const std::string& change : revision.changes)
-      paragraphs.push_back(Paragraph{fmt::format("Revision {}: {}.", revision.name, change), true});
-  return paragraphs;
-}
-
 // Values of a grid of gaps as ranges of neighbours: "120 to 160, 200".
 std::string GapsText(const std::vector<double>& steps_mm, const std::vector<RevisionTouch>& of_session) {
   std::string text;
@@ -127,7 +118,9 @@ Section RevisionSection(const SpacingSweep& sweep, const std::vector<RevisionTou
                            "above, nothing is in a part that the gap moves.",
                            true},
                  std::move(table)}};
-  for (Paragraph& change : ChangesText(sweep)) section.blocks.push_back(std::move(change));
+  for (const SweptRevision& revision : sweep.revisions)
+    for (const std::string& change : revision.changes)
+      section.blocks.push_back(Paragraph{fmt::format("Revision {}: {}.", revision.name, change), true});
   return section;
 }
 

@@ -74,8 +74,11 @@ std::string FewInConditionsNote(const Study& study) {
   std::map<std::string, std::size_t> few;  // the least of a condition's participants in a comparison
   for (const Comparison& comparison : study.comparisons)
     for (const auto& [condition, n] :
-         {std::pair(comparison.a, comparison.of_a.n), {comparison.b, comparison.of_b.n}})
-      if (n < kFew) few[condition] = std::min(n, few.try_emplace(condition, n).first->second);
+         {std::pair(comparison.a, comparison.of_a.n), {comparison.b, comparison.of_b.n}}) {
+      if (n >= kFew) continue;
+      std::size_t& least = few.try_emplace(condition, n).first->second;
+      least = std::min(least, n);
+    }
   std::string names;
   for (const auto& [condition, n] : few)
     names += fmt::format("{}'{}' {}", names.empty() ? "" : ", ", condition, n);

@@ -35,13 +35,13 @@ std::string TrialTextOf(const PlannedTrial& trial, const fs::path& file) {
 }
 
 // The plan's sources are worth more than its table.
-void RequireNoSource(const StudyPlan& plan, const fs::path& csv) {
+void RequireNoSource(const fs::path& study, const std::vector<PlannedTrial>& trials, const fs::path& csv) {
   const auto is_csv = [&](const fs::path& source) {
     std::error_code unknown;
     return fs::equivalent(source, csv, unknown);
   };
-  bool is_source = is_csv(plan.file);
-  for (const PlannedTrial& trial : PlannedTrials(plan)) is_source = is_source || is_csv(trial.trial_file);
+  bool is_source = is_csv(study);
+  for (const PlannedTrial& trial : trials) is_source = is_source || is_csv(trial.trial_file);
   if (is_source)
     throw core::Error(
         core::ErrorKind::kFile,
@@ -62,9 +62,10 @@ bool IsThere(const fs::path& file, const std::string& text) {
 }  // namespace
 
 void WritePlan(const StudyPlan& plan, const std::filesystem::path& csv) {
-  RequireNoSource(plan, csv);
+  const std::vector<PlannedTrial> trials = PlannedTrials(plan);
+  RequireNoSource(plan.file, trials, csv);
   std::string text = "participant,order,condition,block,task,trial\n";
-  for (const PlannedTrial& trial : PlannedTrials(plan))
+  for (const PlannedTrial& trial : trials)
     text += fmt::format("{},{},{},{},{},{}\n", sessions::Quoted(trial.participant), trial.order,
                         sessions::Quoted(trial.condition), sessions::Quoted(trial.block),
                         sessions::Quoted(trial.task), sessions::Quoted(trial.trial_file.string()));

@@ -11,7 +11,6 @@
 #include "app/control/sweep/kept_hulls.h"
 #include "app/control/trial_rules.h"
 #include "core/error.h"
-#include "core/procedure/simulated.h"
 
 namespace elbowroom::control {
 namespace {
@@ -254,7 +253,7 @@ SessionPiece SessionSweep::Run(const std::function<void(std::int64_t)>& frames_d
                    session_.recording_id(),
                    header.started_at_utc,
                    header.trial.participant,
-                   core::IsSimulated(session_.events()),
+                   frames_.is_simulated,
                    header.trial.estimate_mm,
                    header.trial.required_clearance_mm,
                    frames_.without_camera,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/procedure/simulated.h"
 #include "core/procedure/tools_in_use.h"
 
 namespace elbowroom::control {
@@ -15,8 +16,10 @@ SweepFrames SweepFramesOf(const sessions::SessionReader& session) {
   std::set<core::FrameIndex> incomplete;
   for (const sessions::StampRow& row : session.stamp_rows())
     if (row.LacksCamera()) incomplete.insert(row.frame);
-  core::ToolsOfFrames tools(session.events());
+  std::vector<core::SessionEvent> events = session.events();
   SweepFrames result;
+  result.is_simulated = core::IsSimulated(events);
+  core::ToolsOfFrames tools(std::move(events));
   const std::vector<sessions::FrameSummary> all = session.frames();
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (incomplete.contains(all[i].frame)) {

@@ -22,6 +22,7 @@ struct SweepFrames {
   };
   std::vector<Frame> frames;
   std::int64_t without_camera = 0;
+  bool is_simulated = false;  // the session
 };
 // Throws: core::Error{kRange} if there is none.
 [[nodiscard]] SweepFrames SweepFramesOf(const sessions::SessionReader& session);
